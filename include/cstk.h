@@ -1778,7 +1778,7 @@ cstk_status cstk_robot_jacobian(const cstk_robot *robot,
 /**
  * Creates a robot of which only some joints move: a joint group as a robot of its own. It has the same links, by the same
  * numbers, names and bodies. `joints` holds `joint_count` numbers of links: the joints that move these, and those that
- * share their coordinates, are left; all others stand still where `q` (`nq` doubles) has them. q need not lie within limits;
+ * share a coordinate with one that is left, are left with all their coordinates; all others stand still where `q` (`nq` doubles) has them. q need not lie within limits;
  * duplicate joints count once. Coordinates and velocities that are left keep their order and are numbered anew; so are those
  * of groups and states (see cstk_robot_get_group). A space of it takes every query, gradient and motion, alone or with other
  * robots. cstk_robot_to_whole and cstk_robot_from_whole convert configurations. Without any joint the robot has no
@@ -2583,7 +2583,7 @@ cstk_status cstk_space_difference(const cstk_space *space,
 /**
  * Writes the configuration at parameter `t` of the way from `q0` (t = 0) to `q1` (t = 1) at the constant velocity of
  * cstk_space_difference; `t` may lie outside [0, 1]. `out` has `nq` doubles and may be `q0` or `q1`. Free joints follow a
- * screw: their origin does not move straight. See cstk_space_distance.
+ * screw: their origin does not move straight, but where one of its coordinates does, that one stays between its ends. See cstk_space_distance.
  */
 cstk_status cstk_space_interpolate(const cstk_space *space,
                                    const double *q0,

@@ -87,7 +87,7 @@ impl Writer {
                 self.numbers(low);
                 self.numbers(high);
             }
-            PureShape::HalfSpace { normal, offset } => {
+            PureShape::HalfSpace { normal, offset, .. } => {
                 self.u32(5);
                 self.numbers(normal);
                 self.f64(*offset);

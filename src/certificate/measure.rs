@@ -17,7 +17,7 @@ use crate::cobject::{PureSet, PureShape, SpaceState};
 use crate::error::Result;
 use crate::nonzero::{length, product};
 use crate::pose::{Pose, Vec3};
-use crate::robot::{BlockKind, Coordinate};
+use crate::robot::Coordinate;
 use crate::tolerance::{EPSILON, LARGEST_COORDINATE, SUM_SLACK};
 
 /// Link poses are kept for so many times.
@@ -223,8 +223,7 @@ impl<'a> Measure<'a> {
             PureShape::HalfSpace { normal, .. } => normal[c] != 0.0,
             _ => true,
         };
-        let goes_straight =
-            |c: usize| matches!(space.coordinates()[c], Coordinate::Interval { .. });
+        let straight: Vec<usize> = space.straight(self.course.q0, &self.course.v).collect();
         let is_known = matches!(
             pure.shape,
             PureShape::BeyondLimits | PureShape::HalfSpace { .. }
@@ -232,7 +231,7 @@ impl<'a> Measure<'a> {
         is_known
             && space.blocks().iter().all(|block| {
                 let mut own = block.coordinate..block.coordinate + block.kind.nq();
-                own.all(|c| !counts(c) || (block.kind == BlockKind::Line && goes_straight(c)))
+                own.all(|c| !counts(c) || straight.contains(&c))
             })
     }
 

@@ -205,7 +205,7 @@ impl PureSet {
                 (-measure, error)
             }
             PureShape::Box { .. } => measure_of(self.spans(space, q)),
-            PureShape::HalfSpace { normal, offset } => {
+            PureShape::HalfSpace { normal, offset, .. } => {
                 let length = norm(normal);
                 let terms = || normal.iter().zip(q).map(|(n, x)| n / length * x);
                 let signed = terms().sum::<f64>() - offset / length;

@@ -52,6 +52,8 @@ pub enum PureShape {
         normal: Vec<f64>,
         /// The largest `normal . q` in the set.
         offset: f64,
+        /// Whether the boundary does not belong to the set.
+        is_open: bool,
     },
     /// The configurations within `radius` of a centre (see [`super::measure`] for the metric).
     Ball {
@@ -148,7 +150,11 @@ impl PureShape {
 
     /// Whether the boundary does not belong to the set.
     pub fn is_open(&self) -> bool {
-        matches!(self, Self::BeyondLimits | Self::BeyondWorld { .. })
+        match self {
+            Self::BeyondLimits | Self::BeyondWorld { .. } => true,
+            Self::HalfSpace { is_open, .. } => *is_open,
+            _ => false,
+        }
     }
 
     pub(super) fn check(&self, space: &Space) -> Result<()> {
@@ -156,7 +162,7 @@ impl PureShape {
             Self::BeyondLimits | Self::Predicate(_) => Ok(()),
             Self::BeyondWorld { links } | Self::Floor { links, .. } => check_links(space, links),
             Self::Box { low, high } => check_box(space, low, high),
-            Self::HalfSpace { normal, offset } => check_half_space(space, normal, *offset),
+            Self::HalfSpace { normal, offset, .. } => check_half_space(space, normal, *offset),
             Self::Ball { center, radius } => {
                 space
                     .check_configuration(center)

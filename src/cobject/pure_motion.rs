@@ -31,10 +31,13 @@ impl PureSet {
     }
 
     /// The sets that a proof checks one by one along a segment whose ends are in the coordinates' ranges. Of limits these
-    /// are half-spaces that bound the positions of free joints: single coordinates stay between their values at the ends.
-    pub fn parts_on_way(&self, space: &Space) -> Vec<Self> {
+    /// are half-spaces that bound the positions of free joints. Coordinates that are `straight` (asked of limits alone) stay between their
+    /// values at the ends.
+    pub fn parts_on_way(&self, space: &Space, straight: impl FnOnce() -> Vec<usize>) -> Vec<Self> {
         match &self.shape {
-            PureShape::BeyondLimits => self.with_shapes(position_limits(space).into_iter()),
+            PureShape::BeyondLimits => {
+                self.with_shapes(position_limits(space, &straight()).into_iter())
+            }
             _ => self.by_link(),
         }
     }
@@ -61,7 +64,7 @@ impl PureSet {
                 links.iter().map(origin).fold(0.0, f64::max)
             }
             PureShape::BeyondLimits => {
-                let parts = self.parts_on_way(space);
+                let parts = self.parts_on_way(space, || space.straight(q, v).collect());
                 let bounds = parts.iter().map(|part| part.motion_bound(space, q, v));
                 bounds.fold(0.0, f64::max)
             }
@@ -77,14 +80,17 @@ impl PureSet {
     }
 }
 
-/// The half-spaces outside the ranges of free joints' positions.
-fn position_limits(space: &Space) -> Vec<PureShape> {
+/// The half-spaces outside the ranges of free joints' positions, but for those that go straight.
+fn position_limits(space: &Space, straight: &[usize]) -> Vec<PureShape> {
     let mut half_spaces = Vec::new();
     for block in placements(space) {
         for c in block.coordinate..block.coordinate + 3 {
             let Coordinate::Interval { lower, upper } = space.coordinates()[c] else {
                 continue;
             };
+            if straight.contains(&c) {
+                continue;
+            }
             for (end, sign) in [(lower, 1.0), (upper, -1.0)] {
                 if end.is_finite() {
                     let mut normal = vec![0.0; space.nq()];
@@ -92,6 +98,7 @@ fn position_limits(space: &Space) -> Vec<PureShape> {
                     half_spaces.push(PureShape::HalfSpace {
                         normal,
                         offset: sign * end,
+                        is_open: true,
                     });
                 }
             }

@@ -2,6 +2,7 @@
 //! there.
 
 use super::box_piece::BoxPiece;
+use super::linear_motion::LinearMotion;
 use super::set_tree::SetVerdict;
 use super::span::{Followed, Span};
 use super::start_contacts::StartContacts;
@@ -86,11 +87,7 @@ impl MovingPure {
         start: &StartContacts,
     ) -> Result<Self> {
         let mut parts = Vec::new();
-        for (number, part) in set
-            .parts_on_way(way.line.cobject.space())
-            .into_iter()
-            .enumerate()
-        {
+        for (number, part) in parts_on_way(way, set).into_iter().enumerate() {
             let from = start.part_followed_from(set, number);
             let part = MovingPart::new(way, places, part, from)?;
             if part.rate > 0.0 && from < 1.0 {
@@ -348,7 +345,17 @@ fn parts_of(way: &Way, set: &PureSet, is_whole: bool) -> Vec<PureSet> {
             return Vec::new();
         }
     }
-    set.parts_on_way(space)
+    parts_on_way(way, set)
+}
+
+/// The sets that are followed one by one, of a way with both ends in the coordinates' ranges.
+fn parts_on_way(way: &Way, set: &PureSet) -> Vec<PureSet> {
+    let LinearMotion { cobject, q, v, .. } = way.line;
+    let space = cobject.space();
+    set.parts_on_way(space, || match way.kind {
+        WayKind::Line => space.straight(q, v).collect(),
+        _ => Vec::new(),
+    })
 }
 
 /// Bounds how much the signed distance changes in the whole time, or from the middle of a box.

@@ -189,7 +189,9 @@ impl QueryContext {
         found: &mut StartContacts,
     ) -> Result<bool> {
         let space = motion.cobject.space();
-        for (number, part) in set.parts_on_way(space).iter().enumerate() {
+        let straight = || space.straight(motion.q, motion.v).collect();
+        let parts = set.parts_on_way(space, straight);
+        for (number, part) in parts.iter().enumerate() {
             let near = Near {
                 motion,
                 start,

@@ -1,5 +1,7 @@
 //! Robots of which only some joints move: a joint group, with the others frozen at a configuration.
 
+use std::ops::Range;
+
 use super::robot::{Coordinates, Links};
 use super::whole::Whole;
 use super::{Block, Joint, JointKind, Robot, check_configuration};
@@ -8,26 +10,17 @@ use crate::pose::Vec3;
 
 impl Robot {
     /// The same links, by the same numbers, with only some joints left to move: those that move the links of `joints`, and
-    /// those that share their coordinates. All others are frozen at `q`. Coordinates and velocities are numbered anew, in
+    /// those that share a coordinate with one that is left. All others are frozen at `q`. Coordinates and velocities are numbered anew, in
     /// the order they had.
     pub fn freeze(&self, joints: &[usize], q: &[f64]) -> Result<Robot> {
         check_configuration(q, self.nq(), self.blocks())?;
-        let mut is_kept = vec![false; self.nq()];
-        for (i, &link) in joints.iter().enumerate() {
-            let link = self.links().get(link).ok_or_else(|| {
-                let count = self.links().len();
-                let message = format!("joints[{i}]: link {link} does not exist; there are {count}");
-                Error::new(ErrorKind::NotFound, message)
-            })?;
-            let first = link.joint.coordinate;
-            is_kept[first..first + link.joint.kind.nq()].fill(true);
-        }
+        let is_kept = self.left_to_move(joints)?;
         let kept: Vec<usize> = (0..self.nq()).filter(|&c| is_kept[c]).collect();
         let mut places = vec![None; self.nq()];
         for (place, &c) in kept.iter().enumerate() {
             places[c] = Some(place);
         }
-        let coordinates = self.coordinates_of(&kept, &places);
+        let coordinates = self.kept_coordinates(&kept, &places);
         let mut links = Links::default();
         for (index, link) in self.links().iter().enumerate() {
             let mut link = link.clone();
@@ -59,8 +52,34 @@ impl Robot {
         Ok(frozen)
     }
 
+    /// For each coordinate whether it moves the link of one of `joints`, or shares a joint with one that does.
+    fn left_to_move(&self, joints: &[usize]) -> Result<Vec<bool>> {
+        let mut is_kept = vec![false; self.nq()];
+        for (i, &link) in joints.iter().enumerate() {
+            let link = self.links().get(link).ok_or_else(|| {
+                let count = self.links().len();
+                let message = format!("joints[{i}]: link {link} does not exist; there are {count}");
+                Error::new(ErrorKind::NotFound, message)
+            })?;
+            is_kept[coordinates_of(&link.joint)].fill(true);
+        }
+        // A joint of one coordinate may follow one of several: all of that joint's move then, and what follows the others of them.
+        loop {
+            let before = is_kept.clone();
+            for link in self.links() {
+                let own = &mut is_kept[coordinates_of(&link.joint)];
+                if own.contains(&true) {
+                    own.fill(true);
+                }
+            }
+            if is_kept == before {
+                return Ok(is_kept);
+            }
+        }
+    }
+
     /// The ranges and blocks of the coordinates that are left.
-    fn coordinates_of(&self, kept: &[usize], places: &[Option<usize>]) -> Coordinates {
+    fn kept_coordinates(&self, kept: &[usize], places: &[Option<usize>]) -> Coordinates {
         let mut coordinates = Coordinates::default();
         for &c in kept {
             coordinates.ranges.push(self.ranges()[c]);
@@ -120,6 +139,11 @@ const FIXED: Joint = Joint {
     multiplier: 1.0,
     offset: 0.0,
 };
+
+/// The places of a joint's coordinates.
+fn coordinates_of(joint: &Joint) -> Range<usize> {
+    joint.coordinate..joint.coordinate + joint.kind.nq()
+}
 
 /// The velocity of a joint's first coordinate, with which a block begins.
 fn velocity_of(blocks: &[Block], coordinate: usize) -> usize {

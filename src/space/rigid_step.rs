@@ -3,6 +3,7 @@
 
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
 
+use crate::nonzero::product;
 use crate::pose::{Pose, Vec3};
 
 /// A unit quaternion from its entries x, y, z, w, whose norm may be off 1 by rounding.
@@ -62,6 +63,17 @@ impl Placement {
             translation: self.translation + self.rotation * shift,
             rotation: self.rotation * UnitQuaternion::from_scaled_axis(*angular),
         }
+    }
+
+    /// For each coordinate of the position, how far it is at most from the line between its ends on the way of such a step: an eighth of the
+    /// largest second derivative, which is the coordinate of angular x linear, turned about the angular velocity.
+    pub fn bends(&self, linear: &Vec3, angular: &Vec3) -> [f64; 3] {
+        let to_moved = self.rotation.inverse();
+        [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| {
+            // Only what is across the angular velocity turns about it, and all of the product is across.
+            let across = (to_moved * axis).cross(angular).norm();
+            0.125 * product(across, linear.norm())
+        })
     }
 
     /// The twist that leads to another placement in a unit of time, with the shortest rotation: the logarithm of SE(3).

@@ -12,8 +12,9 @@ use super::rigid_step::{Placement, entries, rotation, turn_between};
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::nonzero::{PLAIN_SQUARES, length};
 use crate::pose::Vec3;
-use crate::robot::{BlockKind, Coordinate};
+use crate::robot::{Block, BlockKind, Coordinate};
 use crate::room::room_for;
+use crate::tolerance::EPSILON;
 
 impl Space {
     /// Refuses a velocity that has the wrong number of entries, or an entry that is not a usable number.
@@ -103,27 +104,46 @@ impl Space {
     }
 
     /// The configuration at parameter `t` of the shortest way from `q0` (at 0) to `q1` (at 1). For `t` in [0, 1] interval
-    /// coordinates stay between their ends, to the last bit.
+    /// coordinates stay between their ends, to the last bit; of free joints' positions those that go straight (see
+    /// [`Space::straight`]).
     pub fn interpolate(&self, q0: &[f64], q1: &[f64], t: f64) -> Vec<f64> {
         let mut way: Velocity = SmallVec::from_elem(0.0, self.nv());
         self.write_difference(q0, q1, &mut way);
-        for x in &mut way {
-            *x *= t;
-        }
-        let mut reached = self.step(q0, &way);
+        let part: Velocity = way.iter().map(|x| x * t).collect();
+        let mut reached = self.step(q0, &part);
         if (0.0..=1.0).contains(&t) {
-            let lines = self.blocks().iter().filter(|b| b.kind == BlockKind::Line);
-            for c in lines.map(|block| block.coordinate) {
-                if let Coordinate::Interval { .. } = self.coordinates()[c] {
-                    reached[c] = if t == 1.0 {
-                        q1[c]
-                    } else {
-                        reached[c].clamp(q0[c].min(q1[c]), q0[c].max(q1[c]))
-                    };
-                }
+            for c in self.straight(q0, &way) {
+                reached[c] = if t == 1.0 {
+                    q1[c]
+                } else {
+                    reached[c].clamp(q0[c].min(q1[c]), q0[c].max(q1[c]))
+                };
             }
         }
         reached
+    }
+
+    /// The interval coordinates that stay between their values at the ends of the motion from q with velocity v for a unit of time: all that
+    /// move alone, and of free joints' positions those that go straight, but for what rounding does to them in any case.
+    pub fn straight<'a>(&'a self, q: &'a [f64], v: &'a [f64]) -> impl Iterator<Item = usize> + 'a {
+        let of_block = move |block: &Block| {
+            let (c, k) = (block.coordinate, block.velocity);
+            let vector = |at: usize| Vec3::new(v[at], v[at + 1], v[at + 2]);
+            match block.kind {
+                BlockKind::Line => [Some(c), None, None],
+                BlockKind::Rotation => [None; 3],
+                BlockKind::Placement => {
+                    let (linear, angular) = (vector(k), vector(k + 3));
+                    let bends = Placement::read(&q[c..c + 7]).bends(&linear, &angular);
+                    [0, 1, 2].map(|i| {
+                        let size = q[c + i].abs() + linear.norm();
+                        (bends[i] <= POSITION_ERROR * size).then_some(c + i)
+                    })
+                }
+            }
+        };
+        let coordinates = self.blocks().iter().flat_map(of_block).flatten();
+        coordinates.filter(|&c| matches!(self.coordinates()[c], Coordinate::Interval { .. }))
     }
 
     /// Converts a derivative with respect to the coordinates into one with respect to the velocities. Entries of
@@ -237,6 +257,10 @@ impl Space {
         Ok(distances)
     }
 }
+
+/// A coordinate of a free joint's position counts as going straight where it bends by no more than this, relative to its size: less than
+/// what a step is rounded by.
+const POSITION_ERROR: f64 = 4.0 * EPSILON;
 
 /// A velocity, in memory of its own for most robots.
 type Velocity = SmallVec<[f64; 16]>;

@@ -48,6 +48,7 @@ fn the_gap_along_a_face_is_not_lost() {
         let half = PureShape::HalfSpace {
             normal: vec![0.0, 1.0],
             offset: 1.0,
+            is_open: false,
         };
         for shape in [around, half] {
             let set = &pure(&space, shape, None);

@@ -112,6 +112,7 @@ fn sets_given_in_c_space_or_in_the_world_are_certified() {
     let half = PureShape::HalfSpace {
         normal: vec![-1.0],
         offset: -1.1,
+        is_open: false,
     };
     for (shape, end, most) in [
         // To the end of the range, which is open.

@@ -195,6 +195,7 @@ fn pure_sets_measure_in_their_units() {
     let beyond = || PureShape::HalfSpace {
         normal: vec![-1.0],
         offset: -5.0,
+        is_open: false,
     };
     for (scale, distance) in [(None, 1.0), (Some(2.0), 2.0)] {
         let set = pure(&space, beyond(), scale);

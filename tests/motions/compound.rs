@@ -56,6 +56,7 @@ fn leaf(random: &mut Random, space: &Arc<Space>) -> Arc<CObject> {
         2 => PureShape::HalfSpace {
             normal: (0..nq).map(|_| random.within(-1.0, 1.0)).collect(),
             offset: random.within(-1.0, 1.0),
+            is_open: false,
         },
         _ => {
             let objects: Vec<_> = (0..1 + random.below(4))

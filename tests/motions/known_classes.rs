@@ -69,6 +69,7 @@ fn convex(random: &mut Random, space: &Arc<Space>, positions: &[usize]) -> Arc<C
         _ => PureShape::HalfSpace {
             normal,
             offset: random.within(-0.2, 1.0),
+            is_open: false,
         },
     };
     pure(space, shape, None)

@@ -11,6 +11,7 @@ mod compound;
 mod curves;
 mod discs;
 mod forged;
+mod free_limits;
 mod known_classes;
 mod map_boundaries;
 mod map_ends;

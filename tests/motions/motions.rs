@@ -296,6 +296,7 @@ fn motions_meet_pure_sets_when_they_should() {
             PureShape::HalfSpace {
                 normal: vec![-1.0],
                 offset: -3.0,
+                is_open: false,
             },
             3.0 / 4.0,
         ),

@@ -311,6 +311,7 @@ fn boxes_that_are_none_are_refused() {
         PureShape::HalfSpace {
             normal: vec![1.0],
             offset: 0.0,
+            is_open: false,
         },
         None,
     );

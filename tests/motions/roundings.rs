@@ -121,6 +121,7 @@ fn the_rounding_of_the_way_counts_for_pure_sets() {
     let half_space = |end: f64| PureShape::HalfSpace {
         normal: vec![-1.0],
         offset: -end,
+        is_open: false,
     };
     let near = PureShape::Box {
         low: vec![5e-17],

@@ -188,6 +188,7 @@ fn leaves(random: &mut Random, space: &Arc<Space>) -> Vec<Known> {
         let shape = PureShape::HalfSpace {
             normal: normal.as_slice().to_vec(),
             offset,
+            is_open: false,
         };
         add(shape, Truth::HalfSpace(normal, offset), epsilon);
         let (center, radius) = (random.point(1.0), random.within(0.3, 1.0));

@@ -217,6 +217,7 @@ fn gradients_are_the_derivatives_of_clearances() {
             PureShape::HalfSpace {
                 normal,
                 offset: random.within(-1.0, 1.0),
+                is_open: false,
             },
             PureShape::Ball {
                 center: center.to_vec(),
@@ -355,6 +356,7 @@ fn shapes_are_checked() {
         PureShape::HalfSpace {
             normal,
             offset: 0.0,
+            is_open: false,
         }
     };
     assert_eq!(refused(half(1, 1.0), plain()), InvalidArgument);

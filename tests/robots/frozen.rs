@@ -231,3 +231,71 @@ fn what_is_left_keeps_order_ranges_and_followers() {
         ErrorKind::WrongSize
     );
 }
+
+/// Joints that follow one coordinate of a joint with several, and others that follow its others: all of these are left, and poses are
+/// those of the whole robot.
+#[test]
+fn followers_of_one_of_several_coordinates_keep_them_all() {
+    let mut random = helpers::random::Random::new(17);
+    let mut shared = 0;
+    for case in 0..400 {
+        let mut links = Vec::new();
+        let mut count = 0;
+        // The lines of joints so far, which others may follow.
+        let mut lines: Vec<usize> = Vec::new();
+        for i in 0..8 {
+            let parent = (i > 0).then(|| random.below(i));
+            let kinds = [
+                JointKind::Planar,
+                JointKind::FreeEuler,
+                JointKind::Revolute,
+                JointKind::Prismatic,
+            ];
+            let kind = kinds[random.below(4)].clone();
+            let has_one = kind.nq() == 1;
+            let definition = LinkDefinition {
+                at: Pose::from_translation(random.point(1.0)),
+                ..link(parent, kind.clone(), random.unit())
+            };
+            if has_one && !lines.is_empty() && random.below(3) > 0 {
+                links.push(LinkDefinition {
+                    coordinate: Some(lines[random.below(lines.len())]),
+                    multiplier: random.within(-2.0, 2.0),
+                    ..definition
+                });
+                continue;
+            }
+            lines.extend(count..count + kind.nq());
+            count += kind.nq();
+            links.push(definition);
+        }
+        let whole = robot(3, links);
+        let group: Vec<usize> = (0..1 + random.below(2)).map(|_| random.below(8)).collect();
+        let draw = |random: &mut helpers::random::Random, n: usize| -> Vec<f64> {
+            (0..n).map(|_| random.within(-1.0, 1.0)).collect()
+        };
+        let rest = draw(&mut random, whole.nq());
+        let frozen = Arc::new(whole.freeze(&group, &rest).unwrap());
+        for &link in &group {
+            let [own, of] = [&frozen, &whole].map(|robot| robot.links()[link].joint.kind.nq());
+            assert_eq!(own, of, "{case}");
+        }
+        let is_whole_joint = |(own, of): (&cstk::robot::Link, &cstk::robot::Link)| {
+            [0, of.joint.kind.nq()].contains(&own.joint.kind.nq())
+        };
+        let mut pairs = frozen.links().iter().zip(whole.links());
+        assert!(pairs.all(is_whole_joint), "{case}");
+        shared += usize::from(frozen.nq() > 6);
+        let q = draw(&mut random, frozen.nq());
+        let all = frozen.to_whole(&q).unwrap();
+        let [own, of] = [(frozen, &q), (whole, &all)].map(|(robot, q)| {
+            let space = space(vec![robot]);
+            space.link_poses(q).unwrap().to_vec()
+        });
+        for (a, b) in own.iter().zip(&of) {
+            assert!((a.translation - b.translation).amax() < 1e-12, "{case}");
+            assert!((a.rotation - b.rotation).amax() < 1e-12, "{case}");
+        }
+    }
+    assert!(shared > 50, "{shared}");
+}

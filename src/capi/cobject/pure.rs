@@ -191,7 +191,11 @@ pub unsafe extern "C" fn cstk_cobject_halfspace(
     guard(|| unsafe {
         make(space, options, out, |space| {
             let normal = coordinates(space, normal, nq, "normal")?;
-            Ok(PureShape::HalfSpace { normal, offset })
+            Ok(PureShape::HalfSpace {
+                normal,
+                offset,
+                is_open: false,
+            })
         })
     })
 }

@@ -12,7 +12,7 @@ use crate::robot::Robot;
 
 /// Creates a robot of which only some joints move: a joint group as a robot of its own. It has the same links, by the same
 /// numbers, names and bodies. `joints` holds `joint_count` numbers of links: the joints that move these, and those that
-/// share their coordinates, are left; all others stand still where `q` (`nq` doubles) has them. q need not lie within limits;
+/// share a coordinate with one that is left, are left with all their coordinates; all others stand still where `q` (`nq` doubles) has them. q need not lie within limits;
 /// duplicate joints count once. Coordinates and velocities that are left keep their order and are numbered anew; so are those
 /// of groups and states (see cstk_robot_get_group). A space of it takes every query, gradient and motion, alone or with other
 /// robots. cstk_robot_to_whole and cstk_robot_from_whole convert configurations. Without any joint the robot has no
