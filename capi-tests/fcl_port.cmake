@@ -57,6 +57,7 @@ else()
   message(WARNING "OctoMap not found: the comparison of octrees with FCL's is left out")
 endif()
 add_port(known_cases)
+add_port(refusals)
 add_port(extensions)
 target_sources(port_extensions_cstk PRIVATE ${port}/second_file.cpp)
 

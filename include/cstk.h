@@ -2583,7 +2583,8 @@ cstk_status cstk_space_difference(const cstk_space *space,
 /**
  * Writes the configuration at parameter `t` of the way from `q0` (t = 0) to `q1` (t = 1) at the constant velocity of
  * cstk_space_difference; `t` may lie outside [0, 1]. `out` has `nq` doubles and may be `q0` or `q1`. Free joints follow a
- * screw: their origin does not move straight, but where one of its coordinates does, that one stays between its ends. See cstk_space_distance.
+ * screw: their origin does not move straight, but where one of its coordinates does, that one stays between its ends. See
+ * cstk_space_distance.
  */
 cstk_status cstk_space_interpolate(const cstk_space *space,
                                    const double *q0,
@@ -3280,7 +3281,8 @@ cstk_status cstk_cobject_induced(const cstk_space *space,
 /**
  * Creates the set of configurations at which the two links of some pair meet: one robot with itself, or robots with each
  * other. `pairs` holds 2 * `pair_count` link numbers; the second of a pair is the nominal s-object. Joined links touch at
- * every configuration: leave such pairs out (see cstk_find_link_pairs). Without any pair the set is empty.
+ * every configuration: leave such pairs out (see cstk_find_link_pairs). Without any pair the set is empty. CSTK_ERROR_EMPTY for a
+ * link without a body.
  */
 cstk_status cstk_cobject_induced_links(const cstk_space *space,
                                        const uint32_t *pairs,

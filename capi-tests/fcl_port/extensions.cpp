@@ -1,4 +1,4 @@
-// What FCL lacks or Coal adds: margins, lower bounds, functors, solids, depths of round shapes, errors, threads, single precision.
+// What FCL lacks or Coal adds: margins, lower bounds, functors, solids, depths of round shapes, threads, single precision.
 #include "library.hpp"
 
 #include <thread>
@@ -206,49 +206,6 @@ void depths() {
     }
 }
 
-void refusals() {
-    const auto refused = [](const auto &action) {
-        try {
-            action();
-        } catch (const cstk::Error &) {
-            return true;
-        } catch (const std::invalid_argument &) {
-            return true;
-        }
-        return false;
-    };
-    const fcl::Boxd box(1, 1, 1);
-    const fcl::Sphered wrong(-1);
-    Transform nowhere = at(0, 0, 0);
-    nowhere.translation()[1] = std::nan("");
-    Transform scaled = at(0, 0, 0);
-    scaled.linear() *= 2;
-    const Model empty;
-    const fcl::Halfspaced floor(0, 0, 1, 0);
-    fcl::CollisionResultd result;
-    const auto ask = [&](const fcl::CollisionGeometryd &geometry, const Transform &tf) {
-        fcl::collide<double>(&box, at(0, 0, 0), &geometry, tf, fcl::CollisionRequestd(), result);
-    };
-    expect(refused([&] { ask(box, nowhere); }), "a transform that is not finite");
-    expect(refused([&] { ask(box, scaled); }), "a transform that is no rotation");
-    expect(refused([&] { ask(wrong, at(0, 0, 0)); }), "a negative radius");
-    expect(refused([&] { ask(empty, at(0, 0, 0)); }), "a model that was not ended");
-    expect(refused([&] {
-               fcl::ContinuousCollisionResultd moving;
-               fcl::continuousCollide<double>(&box, at(0, 0, 2), at(0, 0, 2), &floor, at(0, 0, 0), at(0, 0, 1),
-                                              fcl::ContinuousCollisionRequestd(), moving);
-           }),
-           "a half-space that moves");
-    // No manager hides an object that is nowhere.
-    const auto shared = std::make_shared<fcl::Boxd>(1, 1, 1);
-    fcl::CollisionObjectd here(shared, at(9, 9, 9)), lost(shared, nowhere);
-    fcl::DynamicAABBTreeCollisionManagerd manager;
-    manager.registerObjects({&here, &lost});
-    manager.setup();
-    fcl::DefaultCollisionData<double> data;
-    expect(refused([&] { manager.collide(&data, fcl::DefaultCollisionFunction<double>); }), "a manager with an object nowhere");
-}
-
 // As many contacts as there are, however many are asked for.
 void all_contacts() {
     const auto model = model_of(models::torus(1, 0.3, 12, 8));
@@ -348,7 +305,6 @@ int main() {
     thin_triangles();
     depths();
     depths_of_nearly_round_ellipsoids();
-    refusals();
     all_contacts();
     lying();
     changed_sizes();

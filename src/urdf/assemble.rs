@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use nalgebra::Rotation3;
+use nalgebra::{Rotation3, Unit};
 
 use super::bodies::LinkBodies;
 use super::link_tree::LinkTree;
@@ -232,7 +232,9 @@ impl<'a> Assembly<'_, 'a, '_, '_> {
             self.coordinates.insert(owner, taken);
             return Ok(number);
         }
-        if joint.kind == JointType::Planar && joint.axis.cross(&Vec3::z()).norm() > 0.0 {
+        // One that points straight down is tilted too: it turns the other way round.
+        let is_upright = joint.axis.x == 0.0 && joint.axis.y == 0.0 && joint.axis.z > 0.0;
+        if joint.kind == JointType::Planar && !is_upright {
             return self.add_tilted_plane(definition, &joint.axis);
         }
         self.builder.add_link(definition)
@@ -241,9 +243,16 @@ impl<'a> Assembly<'_, 'a, '_, '_> {
     /// Adds a planar joint whose axis is not z. [`JointKind::Planar`] moves in the xy-plane of its frame, so an extra link
     /// is tilted to the axis, and the link is fixed to it.
     fn add_tilted_plane(&mut self, definition: LinkDefinition, axis: &Vec3) -> Result<usize> {
-        let half_turn = || Rotation3::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI);
-        let turn = Rotation3::rotation_between(&Vec3::z(), &(axis / axis.amax()))
-            .unwrap_or_else(half_turn);
+        // The shortest turn from z. By its sine and cosine: near the half turn the cosine alone says little.
+        let across = Vec3::z().cross(&(axis / axis.amax()));
+        let turn = match across.amax() {
+            0.0 => Rotation3::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI),
+            largest => {
+                let about = Unit::new_normalize(across / largest);
+                let angle = across.norm().atan2(axis.z / axis.amax());
+                Rotation3::from_axis_angle(&about, angle)
+            }
+        };
         let tilt = Pose {
             rotation: turn.into_inner(),
             translation: Vec3::zeros(),

@@ -76,6 +76,34 @@ fn joints_of_every_type() {
 }
 
 #[test]
+fn planes_turn_about_their_axis_whichever_way_it_points() {
+    for axis in [
+        Vec3::z(),
+        -Vec3::z(),
+        Vec3::x(),
+        -Vec3::y(),
+        Vec3::new(0.0, 0.0, -3.0),
+        Vec3::new(1e-9, 0.0, -1.0),
+        Vec3::new(1.0, -2.0, 0.5),
+    ] {
+        let [x, y, z] = [axis.x, axis.y, axis.z];
+        let plane = format!(
+            r#"<link name="base"/><link name="plane"/><joint name="j" type="planar"><parent link="base"/><child link="plane"/><axis xyz="{x} {y} {z}"/></joint>"#
+        );
+        let robot = robot("plane_axes", &plane).unwrap();
+        let mut poses = Vec::new();
+        robot.link_poses(&[0.2, 0.3, 0.4], &mut poses).unwrap();
+        let pose = &poses[robot.find_link("plane").unwrap()];
+        let axis = axis.normalize();
+        assert!(
+            (pose.rotation - rotation_about(&axis, 0.4)).amax() < 1e-15,
+            "{axis}"
+        );
+        assert!(pose.translation.dot(&axis).abs() < 1e-15, "{axis}");
+    }
+}
+
+#[test]
 fn shapes_stand_where_the_file_says() {
     let robot = robot("shapes", ARM).unwrap();
     let body = |name: &str| robot.links()[robot.find_link(name).unwrap()].body.clone();

@@ -39,7 +39,7 @@ public:
     /// where there is a rotation, which is larger.)
     void computeAABB() {
         const AABB<S> &local = cgeom->aabb_local;
-        if (!t.matrix().allFinite()) {
+        if (!t.matrix().allFinite() || !local.min_.allFinite() || !local.max_.allFinite()) {
             /* So that no manager hides the object from the query, which refuses it. */
             aabb = everywhere();
             return;

@@ -98,9 +98,10 @@ S continuousCollide(const CollisionGeometry<S> *o1, const MotionBase<S> *motion1
     }
     const cstk_motion_result found = detail::prove<S>({o1, motion1}, {o2, motion2}, options);
     result.is_collide = found.outcome != CSTK_MOTION_FREE;
-    result.time_of_contact = static_cast<S>(found.times[0]);
-    result.contact_tf1 = motion1->at(static_cast<S>(found.times[1]));
-    result.contact_tf2 = motion2->at(static_cast<S>(found.times[1]));
+    result.time_of_contact = detail::rounded_down<S>(found.times[0]);
+    const S contact = detail::rounded_up<S>(found.times[1]);
+    result.contact_tf1 = motion1->at(contact);
+    result.contact_tf2 = motion2->at(contact);
     return result.time_of_contact;
 }
 

@@ -33,8 +33,15 @@ struct WorldFlat {
 
     template <typename S> WorldFlat(const CollisionGeometry<S> *geometry, const Eigen::Isometry3d &tf) {
         const Flat<S> *flat = static_cast<const Flat<S> *>(geometry);
-        n = (tf.linear() * flat->n.template cast<double>()).normalized();
-        d = static_cast<double>(flat->d) + n.dot(tf.translation());
+        /* Both are public members. */
+        const Eigen::Vector3d normal = flat->n.template cast<double>();
+        const double length = normal.norm(), offset = static_cast<double>(flat->d) / length;
+        if (!std::isfinite(length) || !std::isfinite(offset)) {
+            throw std::invalid_argument("cstk_fcl: a plane or half-space has a normal of length 0, or a normal or offset that is not "
+                                        "finite");
+        }
+        n = tf.linear() * normal / length;
+        d = offset + n.dot(tf.translation());
         half = geometry->getNodeType() == GEOM_HALFSPACE;
     }
 };
@@ -101,7 +108,16 @@ inline PrimitivePair two_flats(const WorldFlat &a, const WorldFlat &b) {
     return pair;
 }
 
-/// All pairs of primitives of which at least one is a flat, at most `margin` apart, or the nearest alone.
+/// All primitives of a bounded geometry with a flat, each handed to `offer`. Its body is built first, which checks it as any other pair does.
+template <typename S, typename Offer>
+void offer_beside(const CollisionGeometry<S> *bounded, const Eigen::Isometry3d &tf, const WorldFlat &flat, const Offer &offer) {
+    bounded->body();
+    for (std::size_t i = 0; i < bounded->primitive_count(); ++i) {
+        offer(flat_pair(bounded, tf, i, flat));
+    }
+}
+
+/// All pairs of primitives of which at least one is a flat, at most `margin` apart, or the nearest alone. Neither is empty.
 template <typename S>
 std::vector<PrimitivePair> flat_pairs(const CollisionGeometry<S> *o1, const Eigen::Isometry3d &tf1, const CollisionGeometry<S> *o2,
                                       const Eigen::Isometry3d &tf2, double margin, bool nearest) {
@@ -117,15 +133,9 @@ std::vector<PrimitivePair> flat_pairs(const CollisionGeometry<S> *o1, const Eige
     if (flat1 && flat2) {
         offer(two_flats(WorldFlat(o1, tf1), WorldFlat(o2, tf2)));
     } else if (flat2) {
-        const WorldFlat flat(o2, tf2);
-        for (std::size_t i = 0; i < o1->primitive_count(); ++i) {
-            offer(flat_pair(o1, tf1, i, flat));
-        }
+        offer_beside(o1, tf1, WorldFlat(o2, tf2), offer);
     } else {
-        const WorldFlat flat(o1, tf1);
-        for (std::size_t i = 0; i < o2->primitive_count(); ++i) {
-            offer(flat_pair(o2, tf2, i, flat).swapped());
-        }
+        offer_beside(o2, tf2, WorldFlat(o1, tf1), [&](const PrimitivePair &pair) { offer(pair.swapped()); });
     }
     return found;
 }

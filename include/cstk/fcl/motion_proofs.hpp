@@ -101,7 +101,7 @@ cstk_motion_result prove_bodies(const MovingBody<S> &a, const MovingBody<S> &b, 
 
 /// A square of the plane that holds all of it that a geometry can reach: no motion here leads farther from its start than its end is.
 template <typename S> cstk::Body square_of(const WorldFlat &plane, const Moving<S> &moving) {
-    const Eigen::Isometry3d start = in_double(moving.course.start), end = in_double(moving.course.end);
+    const Eigen::Isometry3d start = checked(moving.course.start), end = checked(moving.course.end);
     Eigen::Vector3d farthest = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < moving.geometry->primitive_count(); ++i) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -129,7 +129,7 @@ template <typename S> cstk::Body square_of(const WorldFlat &plane, const Moving<
 /// face each other; several may be on both sides of it, without any that meets it.
 template <typename S>
 cstk_motion_result prove_beside_flat(const Moving<S> &moving, const Moving<S> &flat, const cstk_motion_options &options) {
-    const WorldFlat world(flat.geometry, in_double(flat.course.start));
+    const WorldFlat world(flat.geometry, checked(flat.course.start));
     const cstk::Body &body = moving.geometry->body();
     if (!world.half && moving.geometry->primitive_count() > 1) {
         const Course<S> rests = {Transform3<S>::Identity(), Transform3<S>::Identity(), MotionKind::TRANSLATION};

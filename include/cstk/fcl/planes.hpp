@@ -19,13 +19,13 @@ public:
     Flat() = default;
     Flat(const Vector3<S> &normal, S offset) : n(normal), d(offset) {
         const S length = n.norm();
-        if (length > 0) {
-            n /= length;
-            d /= length;
-        } else {
+        if (length == 0) {
             /* As FCL does. */
             n = Vector3<S>::UnitX();
             d = 0;
+        } else {
+            n /= length;
+            d /= length;
         }
     }
 

@@ -32,7 +32,7 @@ private:
 /// Whether the two are at most `margin` apart. Doubt within rounding counts as meeting.
 template <typename S> bool within(const Placed<S> &pair, double margin) {
     if (pair.has_flat()) {
-        return !flat_pairs(pair.o1, in_double(pair.tf1), pair.o2, in_double(pair.tf2), margin, false).empty();
+        return !flat_pairs(pair.o1, checked(pair.tf1), pair.o2, checked(pair.tf2), margin, false).empty();
     }
     return query().pair_within(pair.o1->body(), pose(pair.tf1), pair.o2->body(), pose(pair.tf2), margin);
 }
@@ -40,7 +40,7 @@ template <typename S> bool within(const Placed<S> &pair, double margin) {
 /// The depth of two primitives that meet, by support points, seen from the first transform's origin.
 template <typename S>
 PrimitivePair overlap(const Placed<S> &pair, std::uint64_t primitive1, std::uint64_t primitive2) {
-    const Eigen::Isometry3d tf1 = in_double(pair.tf1), tf2 = in_double(pair.tf2);
+    const Eigen::Isometry3d tf1 = checked(pair.tf1), tf2 = checked(pair.tf2);
     const Eigen::Vector3d between = tf2.translation() - tf1.translation();
     const auto support1 = [&](const Eigen::Vector3d &direction) -> Eigen::Vector3d {
         return tf1.linear() * pair.o1->support_point(tf1.linear().transpose() * direction, primitive1);
@@ -95,7 +95,7 @@ void add_witnesses(const Placed<S> &pair, double margin, std::vector<PrimitivePa
 template <typename S> std::vector<PrimitivePair> near_pairs(const Placed<S> &pair, double margin, std::size_t max_count) {
     std::vector<PrimitivePair> found;
     if (pair.has_flat()) {
-        found = flat_pairs(pair.o1, in_double(pair.tf1), pair.o2, in_double(pair.tf2), margin, false);
+        found = flat_pairs(pair.o1, checked(pair.tf1), pair.o2, checked(pair.tf2), margin, false);
     } else if (within(pair, margin)) {
         if (pair.is_polyhedral()) {
             add_penetrations(pair, max_count, found);

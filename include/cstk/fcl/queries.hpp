@@ -12,7 +12,7 @@ namespace detail {
 
 /// The box around a primitive in the world, or around the whole geometry.
 template <typename S> AABB<S> world_box(const CollisionGeometry<S> *geometry, const Transform3<S> &tf, std::intptr_t primitive) {
-    const Eigen::Isometry3d at = in_double(tf);
+    const Eigen::Isometry3d at = checked(tf);
     AABB<S> box;
     const std::size_t first = primitive == NONE ? 0 : static_cast<std::size_t>(primitive);
     const std::size_t end = primitive == NONE ? geometry->primitive_count() : first + 1;
@@ -60,14 +60,14 @@ template <typename S> void set_lower_bound(const Placed<S> &pair, const Collisio
         return;
     }
     if (pair.has_flat()) {
-        const double gap = flat_pairs(pair.o1, in_double(pair.tf1), pair.o2, in_double(pair.tf2), 0, true)[0].gap;
-        result.distance_lower_bound = static_cast<S>(std::max(gap - margin, 0.0));
+        const double gap = flat_pairs(pair.o1, checked(pair.tf1), pair.o2, checked(pair.tf2), 0, true)[0].gap;
+        result.distance_lower_bound = rounded_down<S>(std::max(gap - margin, 0.0));
         return;
     }
     const double limit = as_limit(request.distance_upper_bound);
     const cstk_distance_result found = query().pair_distance(pair.o1->body(), pose(pair.tf1), pair.o2->body(),
                                                              pose(pair.tf2), std::max(limit, 0.0));
-    result.distance_lower_bound = static_cast<S>(std::max(found.lower - margin, 0.0));
+    result.distance_lower_bound = rounded_down<S>(std::max(found.lower - margin, 0.0));
 }
 
 } // namespace detail
@@ -79,8 +79,8 @@ std::size_t collide(const CollisionGeometry<S> *o1, const Transform3<S> &tf1, co
                     const Transform3<S> &tf2, const CollisionRequest<S> &request, CollisionResult<S> &result) {
     const detail::Placed<S> pair{o1, tf1, o2, tf2};
     const double margin = static_cast<double>(request.security_margin);
-    if (margin < 0) {
-        throw std::invalid_argument("cstk_fcl: security_margin is negative: ask for contacts and compare their depths");
+    if (!(margin >= 0)) {
+        throw std::invalid_argument("cstk_fcl: security_margin is negative, or no number: ask for contacts and compare their depths");
     }
     if (request.num_max_contacts == 0 || request.isSatisfied(result) || o1->isFree() || o2->isFree()) {
         return result.numContacts();
@@ -130,7 +130,7 @@ S distance(const CollisionGeometry<S> *o1, const Transform3<S> &tf1, const Colli
         return result.min_distance;
     }
     if (pair.has_flat()) {
-        nearest = detail::flat_pairs(o1, detail::in_double(tf1), o2, detail::in_double(tf2), 0, true)[0];
+        nearest = detail::flat_pairs(o1, detail::checked(tf1), o2, detail::checked(tf2), 0, true)[0];
     } else {
         const double limit = std::max(detail::as_limit(result.min_distance), 0.0);
         const cstk_distance_result found =

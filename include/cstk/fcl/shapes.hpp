@@ -252,7 +252,12 @@ public:
     }
 
     Eigen::Vector3d support_point(const Eigen::Vector3d &direction, std::size_t) const override {
-        return findExtremeVertex(direction.template cast<S>()).template cast<double>();
+        Eigen::Vector3d farthest = vertices_->front().template cast<double>();
+        for (const Vector3<S> &vertex : *vertices_) {
+            const Eigen::Vector3d other = vertex.template cast<double>();
+            farthest = direction.dot(other) > direction.dot(farthest) ? other : farthest;
+        }
+        return farthest;
     }
 
 private:

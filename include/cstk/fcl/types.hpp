@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/StdVector>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -108,11 +109,15 @@ constexpr int NONE = -1;
 
 using RowMajorPose = Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>;
 
-/// The transform as the library takes it. Rotations in single precision are rounded to rotations first.
+/// The transform as the library takes it. What is a rotation in single precision is rounded to one in double precision; what is none, or
+/// not finite, stays as it is, and is refused by the library.
 template <typename S> cstk::Pose pose(const Transform3<S> &transform) {
+    /* More than thousands of products in single precision leave. */
+    constexpr double SINGLE_ROUNDING = 1e-4;
     Eigen::Matrix3d rotation = transform.linear().template cast<double>();
     if (!std::is_same_v<S, double>) {
-        rotation = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+        const Eigen::Matrix3d near = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+        rotation = (near - rotation).cwiseAbs().maxCoeff() <= SINGLE_ROUNDING ? near : rotation;
     }
     cstk::Pose pose;
     RowMajorPose rows(pose.data());
@@ -121,10 +126,22 @@ template <typename S> cstk::Pose pose(const Transform3<S> &transform) {
     return pose;
 }
 
-/// The same in double precision, as the header's own computations take it.
-template <typename S> Eigen::Isometry3d in_double(const Transform3<S> &transform) {
-    return transform.template cast<double>();
+/// The same as the header's own computations take it, checked as the library checks it.
+template <typename S> Eigen::Isometry3d checked(const Transform3<S> &transform) {
+    cstk::Pose found = cstk::compose(cstk::identity(), pose(transform));
+    Eigen::Isometry3d checked;
+    checked.matrix().topRows<3>() = RowMajorPose(found.data());
+    checked.makeAffine();
+    return checked;
 }
+
+/// The number in the precision of the caller's that is no larger, or no smaller.
+template <typename S> S rounded_down(double number) {
+    const S rounded = static_cast<S>(number);
+    return static_cast<double>(rounded) <= number ? rounded : std::nextafter(rounded, -std::numeric_limits<S>::infinity());
+}
+
+template <typename S> S rounded_up(double number) { return -rounded_down<S>(-number); }
 
 inline Eigen::Vector3d point_of(const double *point) { return {point[0], point[1], point[2]}; }
 

@@ -18,7 +18,7 @@ Doubles = NDArray[np.float64]
 
 def numbers(name: str, value: ArrayLike) -> Doubles:
     """An array of doubles, row by row in memory: the given one where it is that already."""
-    if type(value) is np.ndarray and value.dtype == np.float64 and value.flags.c_contiguous:
+    if type(value) is np.ndarray and value.dtype == np.float64 and value.flags.c_contiguous and value.flags.aligned:
         return value
     _not_masked(name, value)
     try:
@@ -29,7 +29,12 @@ def numbers(name: str, value: ArrayLike) -> Doubles:
         if array.dtype.kind not in "fiu" and array.size:
             raise TypeError(f"{name} holds {array.dtype}, not real numbers")
         array = array.astype(np.float64)
-    return np.ascontiguousarray(array) if array.ndim else array
+    return as_in_c(array) if array.ndim else array
+
+
+def as_in_c(array: NDArray[Any]) -> NDArray[Any]:
+    """Row by row in memory, at addresses that C may read its type from: a copy where it is not."""
+    return np.atleast_1d(np.require(array, requirements=("C", "A")))
 
 
 def _not_masked(name: str, value: Any) -> None:
@@ -82,7 +87,7 @@ def poses(name: str, value: ArrayLike) -> Doubles:
         if not (array[:, 3] == (0, 0, 0, 1)).all():
             finite(name, array)
             raise InvalidArgumentError(f"{name}: the last row of a 4 x 4 pose is 0, 0, 0, 1")
-        return np.ascontiguousarray(array[:, :3])
+        return as_in_c(array[:, :3])
     if array.ndim == 3 and array.shape[1:] == (3, 4):
         return array
     raise WrongSizeError(f"{name} has shape {array.shape}; needed: (n, 4, 4) or (n, 3, 4)")
@@ -114,13 +119,13 @@ def integers(name: str, value: ArrayLike, dtype: Any) -> NDArray[Any]:
     except (ValueError, OverflowError) as error:
         raise WrongSizeError(f"{name} is no array: {error}") from None
     if array.dtype == dtype:
-        return np.ascontiguousarray(array)
+        return as_in_c(array)
     if array.dtype.kind not in "iu" and array.size:
         raise TypeError(f"{name} holds {array.dtype}, not whole numbers")
     limits = np.iinfo(dtype)
     if array.size and (int(array.min()) < limits.min or int(array.max()) > limits.max):
         raise InvalidArgumentError(f"{name} holds a number beyond {limits.min} to {limits.max}")
-    return np.ascontiguousarray(array, dtype=dtype)
+    return as_in_c(array.astype(dtype))
 
 
 def index(name: str, value: Any, bits: int = 32) -> int:

@@ -184,7 +184,8 @@ pub unsafe extern "C" fn cstk_cobject_induced(
 
 /// Creates the set of configurations at which the two links of some pair meet: one robot with itself, or robots with each
 /// other. `pairs` holds 2 * `pair_count` link numbers; the second of a pair is the nominal s-object. Joined links touch at
-/// every configuration: leave such pairs out (see cstk_find_link_pairs). Without any pair the set is empty.
+/// every configuration: leave such pairs out (see cstk_find_link_pairs). Without any pair the set is empty. CSTK_ERROR_EMPTY for a
+/// link without a body.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_induced_links(
     space: *const cstk_space,

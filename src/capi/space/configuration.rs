@@ -188,7 +188,8 @@ pub unsafe extern "C" fn cstk_space_difference(
 
 /// Writes the configuration at parameter `t` of the way from `q0` (t = 0) to `q1` (t = 1) at the constant velocity of
 /// cstk_space_difference; `t` may lie outside [0, 1]. `out` has `nq` doubles and may be `q0` or `q1`. Free joints follow a
-/// screw: their origin does not move straight, but where one of its coordinates does, that one stays between its ends. See cstk_space_distance.
+/// screw: their origin does not move straight, but where one of its coordinates does, that one stays between its ends. See
+/// cstk_space_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_interpolate(
     space: *const cstk_space,
