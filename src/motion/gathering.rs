@@ -18,7 +18,7 @@ use super::start_contacts::StartContacts;
 use super::way::{Way, WayKind};
 use crate::cobject::{BodyPairs, ClearPairs, Induced, PureSet, PureShape};
 use crate::error::{Error, ErrorKind, Result};
-use crate::query::{CandidateFilter, Group, Placement, QueryContext, Scene, Target};
+use crate::query::{CandidateFilter, Group, ListOrder, Placement, QueryContext, Scene, Target};
 use crate::robot::LinkMotions;
 
 /// What is to be proved of a set, whose complements are moved down to the leaves of its tree.
@@ -176,7 +176,7 @@ impl<'a, 'k> Gathering<'a, 'k> {
         let checked = scene.checked(term)?;
         // No distance at another time is less than that at the middle by more than what the motion changes up to there.
         let wanted = CandidateFilter {
-            any_order: true,
+            order: ListOrder::Any,
             ..CandidateFilter::within(threshold + farthest / STEP_FRACTION)
         };
         let meter = context.scratch.meter_mut();

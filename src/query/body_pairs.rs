@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::answer::SSide;
 use super::cache_key::CacheKey;
-use super::candidates::{CandidateFilter, CandidateScratch, Candidates};
+use super::candidates::{CandidateFilter, CandidateScratch, Candidates, ListOrder};
 use super::context::QueryContext;
 use super::link_boxes::LinkBoxes;
 use super::object_offers::{ObjectsTerm, RSide};
@@ -26,13 +26,18 @@ struct LinksTerm<'t> {
     number: u32,
 }
 
-/// Whether no body pair is in two terms of a group for certain: it has at most one term of each kind.
-pub(super) fn has_no_repeats(group: &Group) -> bool {
+/// How the pairs of a group are listed where any of them decides: as they are found, if none is in two terms for certain, as where there
+/// is at most one term of each kind.
+pub(super) fn order_of_any(group: &Group) -> ListOrder {
     let is_of_links = |term: &&Arc<Induced>| matches!(term.pairs, BodyPairs::Links { .. });
-    match group.len() {
+    let has_no_repeats = match group.len() {
         0 | 1 => true,
         2 => group.iter().filter(is_of_links).count() == 1,
         _ => false,
+    };
+    match has_no_repeats {
+        true => ListOrder::Any,
+        false => ListOrder::Bounds,
     }
 }
 
@@ -141,7 +146,7 @@ impl<'a> Scene<'a> {
                 }
             }
         }
-        candidates.finish()
+        candidates.finish(scratch)
     }
 
     fn offer_links<'s>(

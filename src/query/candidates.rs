@@ -2,6 +2,7 @@
 
 use super::cache_key::PairIds;
 use super::link_boxes::LinkBoxes;
+use super::pair_order::PairOrder;
 use super::target::Target;
 use crate::cobject::InducedOptions;
 use crate::environment::{Bounds, NearScratch};
@@ -20,10 +21,21 @@ pub struct CandidateFilter {
     pub nearest: Option<f64>,
     /// Only pairs of bodies that stand for nothing but themselves.
     pub is_proved: bool,
-    /// The pairs may come in any order, without ranks; only where none is in two terms.
-    pub any_order: bool,
-    /// Only pairs that come no later in order of ids, in that order: this one meets, and the first that does is asked for.
+    /// How the pairs are listed.
+    pub order: ListOrder,
+    /// Only pairs that come no later in order of ids: this one meets, and the first that does is asked for.
     pub last: Option<PairIds>,
+}
+
+/// The order of a list of body pairs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ListOrder {
+    /// By bound; those of the same bound by ids.
+    Bounds,
+    /// By ids.
+    Ids,
+    /// As they are found, without ranks; only where none is in two terms.
+    Any,
 }
 
 impl CandidateFilter {
@@ -33,7 +45,7 @@ impl CandidateFilter {
             in_contact: false,
             nearest: None,
             is_proved: false,
-            any_order: false,
+            order: ListOrder::Bounds,
             last: None,
         }
     }
@@ -45,6 +57,9 @@ pub(crate) struct CandidateScratch {
     pub near: NearScratch,
     pub link_boxes: LinkBoxes,
     targets: Vec<Target<'static>>,
+    /// Of the pairs in the order in which they were offered.
+    offered: Vec<Target<'static>>,
+    order: PairOrder,
 }
 
 impl CandidateScratch {
@@ -73,7 +88,7 @@ impl<'s, 'm> Candidates<'s, 'm> {
             filter,
             meter,
             nearest: f64::INFINITY,
-            targets: emptied(std::mem::take(&mut scratch.targets)),
+            targets: emptied(std::mem::take(&mut scratch.offered)),
         }
     }
 
@@ -162,25 +177,30 @@ impl<'s, 'm> Candidates<'s, 'm> {
         self.limit(options) + options.margin
     }
 
-    /// The pairs still within the cutoff, without duplicates, ranked by ids and sorted by bound, or by ids (see
-    /// [`CandidateFilter::last`]).
-    pub fn finish(mut self) -> Result<Vec<Target<'s>>> {
+    /// The pairs still within the cutoff, without duplicates, ranked by ids, in the order that the filter asks for.
+    pub fn finish(mut self, scratch: &mut CandidateScratch) -> Result<Vec<Target<'s>>> {
         self.meter.check()?;
-        let mut targets = std::mem::take(&mut self.targets);
-        if self.filter.any_order {
-            return Ok(targets);
+        let mut offered = std::mem::take(&mut self.targets);
+        if self.filter.order == ListOrder::Any {
+            // Nothing is moved: the memory of the list goes back and forth.
+            scratch.offered = std::mem::take(&mut scratch.targets);
+            return Ok(offered);
         }
-        targets.retain(|target| target.bound <= self.limit(&target.options));
-        targets.sort_unstable_by_key(|target| (target.ids(), target.term));
-        if targets.windows(2).any(|two| two[0].ids() == two[1].ids()) {
-            targets = without_repeats(targets);
+        let order = &mut scratch.order;
+        let is_near = |target: &Target| target.bound <= self.limit(&target.options);
+        if order.by_ids(&offered, is_near) {
+            offered.retain(is_near);
+            offered.sort_unstable_by_key(|target| (target.ids(), target.term));
+            offered = without_repeats(offered);
+            order.as_they_are(offered.len());
         }
-        for (target, rank) in targets.iter_mut().zip(0..) {
-            target.rank = rank;
+        order.set_ranks(&mut offered);
+        if self.filter.order == ListOrder::Bounds {
+            order.by_bounds(&offered);
         }
-        if self.filter.last.is_none() {
-            targets.sort_unstable_by(|a, b| a.bound.total_cmp(&b.bound).then(a.rank.cmp(&b.rank)));
-        }
+        let mut targets = emptied(std::mem::take(&mut scratch.targets));
+        targets.extend(order.places().map(|place| offered[place]));
+        scratch.offered = emptied(offered);
         Ok(targets)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::body_pairs::has_no_repeats;
+use super::body_pairs::order_of_any;
 use super::candidates::CandidateFilter;
 use super::combination::{Memo, cheap_first, emptied, is_pure};
 use super::context::QueryContext;
@@ -133,7 +133,7 @@ impl QueryContext {
         let filter = CandidateFilter {
             in_contact: true,
             is_proved,
-            any_order: has_no_repeats(&group),
+            order: order_of_any(&group),
             ..CandidateFilter::within(0.0)
         };
         let candidates = self.candidates(scene, group, filter)?;

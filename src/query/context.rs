@@ -39,6 +39,8 @@ pub struct QueryContext {
     /// next time. At poses that have nothing to do with each other it hardly ever is: of the configurations that an RRT-Connect asks
     /// for, 2 % of those that are inside are so by the pair found last.
     pub(super) recent_decides: bool,
+    /// Whether the distance asked for last was 0: the next one mostly is too.
+    pub(super) met_last: bool,
     /// The versions of environments that the last query saw, in order of their serial numbers.
     seen: Vec<(u64, u64)>,
 }
@@ -154,6 +156,7 @@ impl QueryContext {
     pub fn clear(&mut self) {
         self.witnesses.clear();
         self.recent = None;
+        self.met_last = false;
     }
 
     pub(super) fn remembered(&self, key: &CacheKey) -> Option<[u32; 2]> {

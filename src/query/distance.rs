@@ -3,7 +3,7 @@
 use super::answer::Distance;
 use super::body_pairs::CheckedGroup;
 use super::cache_key::PairIds;
-use super::candidates::CandidateFilter;
+use super::candidates::{CandidateFilter, ListOrder};
 use super::combination::{Composition, Memo, composition, emptied};
 use super::context::{QueryContext, check_threshold};
 use super::pure_answer::PureAt;
@@ -29,8 +29,15 @@ pub(crate) struct NearestHit<'t, 'a> {
 struct RecentDistance {
     /// An upper bound.
     at_most: f64,
-    /// The pair's ids, if it meets: none that comes later in their order is asked for.
-    meets: Option<PairIds>,
+    /// The pair, if it meets: none that comes later in order of ids is asked for.
+    meets: Option<Meeting>,
+}
+
+/// A primitive pair that meets.
+#[derive(Clone, Copy)]
+struct Meeting {
+    ids: PairIds,
+    hit: Hit,
 }
 
 impl QueryContext {
@@ -139,18 +146,21 @@ impl QueryContext {
     ) -> Result<Distance> {
         let checked = scene.checked(group)?;
         let recent = self.recent_distance(scene, checked, max_distance)?;
-        let filter = CandidateFilter {
-            nearest: Some(recent.at_most),
-            last: recent.meets,
-            ..CandidateFilter::within(0.0)
-        };
-        let candidates = self.candidates(scene, checked, filter)?;
-        let limit = match recent.meets {
-            Some(_) => 0.0,
-            None => max_distance,
-        };
-        let mut distance = self.distance_among(group, scene, &candidates, limit)?;
-        self.keep_memory(candidates);
+        let mut distance = Distance::unknown();
+        let meets = recent.meets.is_some();
+        if meets || self.met_last {
+            distance = self.distance_if_meeting(group, scene, recent.meets)?;
+        }
+        if !meets && !distance.is_zero() {
+            let filter = CandidateFilter {
+                nearest: Some(recent.at_most),
+                ..CandidateFilter::within(0.0)
+            };
+            let candidates = self.candidates(scene, checked, filter)?;
+            distance = self.distance_among(group, scene, &candidates, max_distance)?;
+            self.keep_memory(candidates);
+        }
+        self.met_last = distance.is_zero();
         if self.gap.is_some() && distance.excess > 0.0 {
             // What is nearest once surfaces are refined need not be so before: all pairs that may be.
             let filter = CandidateFilter::within(distance.upper.min(max_distance));
@@ -167,6 +177,39 @@ impl QueryContext {
         Ok(distance)
     }
 
+    /// The distance of the first pair that meets, in order of ids; of no pairs behind `last`, which is known to. Something else where none
+    /// meets.
+    fn distance_if_meeting(
+        &mut self,
+        group: &Group,
+        scene: &Scene,
+        last: Option<Meeting>,
+    ) -> Result<Distance> {
+        let filter = CandidateFilter {
+            order: ListOrder::Ids,
+            last: last.map(|last| last.ids),
+            ..CandidateFilter::within(0.0)
+        };
+        let candidates = self.candidates(scene, scene.checked(group)?, filter)?;
+        // The pair is the last of the list, unless another has its ids.
+        let others = candidates
+            .split_last()
+            .map_or(&[][..], |(_, others)| others);
+        let known = last.filter(|last| {
+            let is_it = |target: &Target| target.ids() == last.ids;
+            candidates.last().is_some_and(is_it) && !others.last().is_some_and(is_it)
+        });
+        let mut visitor = NearestPrimitives::up_to(0.0);
+        if let Some(Meeting { mut hit, .. }) = known {
+            hit.key.pair = others.len() as u32;
+            visitor.take(hit, 0.0, None);
+        }
+        let found = self.nearest_from(&candidates, visitor)?;
+        let distance = self.distance_of_found(group, scene, &found, 0.0);
+        self.keep_memory(candidates);
+        Ok(distance)
+    }
+
     pub(super) fn distance_among(
         &mut self,
         group: &Group,
@@ -179,11 +222,21 @@ impl QueryContext {
             return Ok(Distance::empty(scene.version()));
         }
         let found = self.nearest(candidates, max_distance)?;
+        Ok(self.distance_of_found(group, scene, &found, max_distance))
+    }
+
+    fn distance_of_found(
+        &mut self,
+        group: &Group,
+        scene: &Scene,
+        found: &NearestHit,
+        max_distance: f64,
+    ) -> Distance {
         let leaf = |term: u32| group[term as usize].leaf;
-        Ok(Distance {
+        Distance {
             version: scene.version(),
-            ..Distance::from_found(&found, max_distance, leaf, self.scratch.for_primitives())
-        })
+            ..Distance::from_found(found, max_distance, leaf, self.scratch.for_primitives())
+        }
     }
 
     /// The distance from the complement of a union of induced sets: 0 where no bodies meet; else unknown.
@@ -206,8 +259,10 @@ impl QueryContext {
             visitor.margin = margin;
             let _ = visit_pair(pairing, places, scratch, &mut visitor);
             at_most = visitor.limit();
-            if visitor.best.is_some_and(|hit| hit.distance == 0.0) {
-                meets = ids;
+            if let Some((ids, hit)) = ids.zip(visitor.best)
+                && hit.distance == 0.0
+            {
+                meets = Some(Meeting { ids, hit });
             }
         })?;
         Ok(RecentDistance { at_most, meets })
@@ -220,9 +275,19 @@ impl QueryContext {
         targets: &'t [Target<'a>],
         limit: f64,
     ) -> Result<NearestHit<'t, 'a>> {
-        let mut visitor = NearestPrimitives::up_to(limit);
-        // Warm start: the last nearest primitive pair of each two bodies bounds the distance before any tree is traversed.
-        for target in targets.iter().filter(|_| targets.len() > 1) {
+        self.nearest_from(targets, NearestPrimitives::up_to(limit))
+    }
+
+    /// The same, if nearer than what the visitor has found.
+    fn nearest_from<'t, 'a>(
+        &mut self,
+        targets: &'t [Target<'a>],
+        mut visitor: NearestPrimitives,
+    ) -> Result<NearestHit<'t, 'a>> {
+        // Warm start: the last nearest primitive pair of each two bodies bounds the distance before any tree is traversed. Where only what
+        // meets is asked for, no bound is needed.
+        let starts_warm = targets.len() > 1 && visitor.limit() > 0.0;
+        for target in targets.iter().filter(|_| starts_warm) {
             visitor.margin = target.margin();
             visitor.body_pair = target.rank;
             if target.bound > visitor.limit() {

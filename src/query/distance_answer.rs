@@ -25,6 +25,11 @@ impl Distance {
         Self::empty(0)
     }
 
+    /// Whether something meets, or may.
+    pub(super) fn is_zero(&self) -> bool {
+        self.distance == 0.0
+    }
+
     pub(super) fn empty(version: u64) -> Self {
         Self {
             kind: DistanceKind::Empty,

@@ -22,6 +22,7 @@ mod object_offers;
 mod object_pairs;
 mod object_sets;
 mod pair_depth;
+mod pair_order;
 mod pair_penetration;
 mod pairs;
 mod part_search;
@@ -41,7 +42,7 @@ pub use answer::{
     PurePlace, SSide, Witness, WitnessList,
 };
 pub(crate) use cache_key::CacheKey;
-pub(crate) use candidates::CandidateFilter;
+pub(crate) use candidates::{CandidateFilter, ListOrder};
 pub(crate) use combination::{Composition, composition};
 pub use context::QueryContext;
 pub(crate) use context::check_threshold;

@@ -1,6 +1,6 @@
 //! Whether the distance may be at most a threshold, for a C-object and for many body pairs.
 
-use super::body_pairs::{CheckedGroup, has_no_repeats};
+use super::body_pairs::{CheckedGroup, order_of_any};
 use super::candidates::CandidateFilter;
 use super::combination::{Composition, Memo, cheap_first, composition, emptied};
 use super::context::{QueryContext, check_threshold};
@@ -127,7 +127,7 @@ impl QueryContext {
             return Ok(true);
         }
         let filter = CandidateFilter {
-            any_order: has_no_repeats(&group),
+            order: order_of_any(&group),
             ..CandidateFilter::within(threshold)
         };
         let candidates = self.candidates(scene, group, filter)?;
