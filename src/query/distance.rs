@@ -38,6 +38,7 @@ struct RecentDistance {
 struct Meeting {
     ids: PairIds,
     hit: Hit,
+    measured: Option<PrimitiveDistance>,
 }
 
 impl QueryContext {
@@ -200,9 +201,13 @@ impl QueryContext {
             candidates.last().is_some_and(is_it) && !others.last().is_some_and(is_it)
         });
         let mut visitor = NearestPrimitives::up_to(0.0);
-        if let Some(Meeting { mut hit, .. }) = known {
+        if let Some(Meeting {
+            mut hit, measured, ..
+        }) = known
+        {
             hit.key.pair = others.len() as u32;
             visitor.take(hit, 0.0, None);
+            visitor.measured = measured;
         }
         let found = self.nearest_from(&candidates, visitor)?;
         let distance = self.distance_of_found(group, scene, &found, 0.0);
@@ -262,7 +267,8 @@ impl QueryContext {
             if let Some((ids, hit)) = ids.zip(visitor.best)
                 && hit.distance == 0.0
             {
-                meets = Some(Meeting { ids, hit });
+                let measured = visitor.measured;
+                meets = Some(Meeting { ids, hit, measured });
             }
         })?;
         Ok(RecentDistance { at_most, meets })
