@@ -159,6 +159,14 @@ fn two_held_objects_may_be_allowed() {
     assert_eq!(with(&[]), Class::Inside);
     assert_eq!(with(&[pair(0)]), Class::Outside);
     assert_eq!(with(&[pair(1)]), Class::Outside);
+    // Links that one of them may touch are so by their own bodies alone.
+    let touching = |i: usize, y: f64| Change::Attach {
+        id: ids[i],
+        pose: middle_at(&cube, [0.0, y, 0.0]),
+        attachment: Attachment::new(&space, i, &[1 - i]).unwrap(),
+    };
+    world.apply(&[touching(0, 2.0), touching(1, 2.5)]).unwrap();
+    assert_eq!(with(&[]), Class::Inside);
 }
 
 /// A base that rests on the floor stops nobody, whether the hand is empty or not; what the hand holds meets the base.

@@ -70,7 +70,8 @@ pub struct cstk_environment_change {
     /// there. In a set of links against s-objects, it is tested against the other s-objects as the link itself is
     /// (`r_object` of a witness names it); and as an s-object against the links, except the link that holds it and the
     /// `touch_count` links in `touch_links` (the fingers, say). Those may touch it only while it is attached: for approach
-    /// and retreat create a second set with `allowed` of cstk_induced_options.
+    /// and retreat create a second set with `allowed` of cstk_induced_options. It is tested against other objects that its
+    /// touch links hold, not against those that its own link holds.
     pub space: *const cstk_space,
     pub touch_links: *const u32,
     pub link: u32,
