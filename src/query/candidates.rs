@@ -190,7 +190,10 @@ impl<'s, 'm> Candidates<'s, 'm> {
         let is_near = |target: &Target| target.bound <= self.limit(&target.options);
         if order.by_ids(&offered, is_near) {
             offered.retain(is_near);
-            offered.sort_unstable_by_key(|target| (target.ids(), target.term));
+            offered.sort_unstable_by(|a, b| {
+                let by_state = a.ids().cmp(&b.ids()).then_with(|| a.order_of_states(b));
+                by_state.then(a.term.cmp(&b.term))
+            });
             offered = without_repeats(offered);
             order.as_they_are(offered.len());
         }
@@ -207,7 +210,8 @@ impl<'s, 'm> Candidates<'s, 'm> {
 
 /// Removes duplicates from pairs in order of ids. Where several terms hold a pair at the same poses, it gets the largest
 /// margin and the farthest contact distance of any: it is inside, or in contact, if it is for any term. An object
-/// whose two pairs differ in pose or body, as those of an environment and of an older snapshot of it may, counts as two.
+/// whose two pairs differ in pose or body, as those of an environment and of an older snapshot of it may, counts as two, which come
+/// in an order of their own: not that of the terms, since which of these are in the list depends on how far it goes.
 fn without_repeats(targets: Vec<Target>) -> Vec<Target> {
     let mut unique: Vec<Target> = Vec::with_capacity(targets.len());
     for next in targets {
@@ -227,7 +231,8 @@ fn without_repeats(targets: Vec<Target>) -> Vec<Target> {
                 let farthest_contact = |o: &InducedOptions| o.margin + o.contact_epsilon;
                 let by_distance = |o: &InducedOptions| (o.margin, o.contact_epsilon);
                 if by_distance(&next.options) > by_distance(&known.options) {
-                    known.term = next.term;
+                    (known.term, known.s_carrier, known.data) =
+                        (next.term, next.s_carrier, next.data);
                 }
                 let merged = &mut known.options;
                 let farthest = farthest_contact(merged).max(farthest_contact(&next.options));

@@ -39,6 +39,8 @@ struct Meeting {
     ids: PairIds,
     hit: Hit,
     measured: Option<PrimitiveDistance>,
+    /// No other term holds a pair with its ids.
+    is_alone: bool,
 }
 
 impl QueryContext {
@@ -192,22 +194,15 @@ impl QueryContext {
             ..CandidateFilter::within(0.0)
         };
         let candidates = self.candidates(scene, scene.checked(group)?, filter)?;
-        // The pair is the last of the list, unless another has its ids.
-        let others = candidates
-            .split_last()
-            .map_or(&[][..], |(_, others)| others);
-        let known = last.filter(|last| {
-            let is_it = |target: &Target| target.ids() == last.ids;
-            candidates.last().is_some_and(is_it) && !others.last().is_some_and(is_it)
-        });
+        // The last of the list is this pair, if it is there.
+        let at_end = candidates.last();
+        let is_known =
+            |last: &Meeting| last.is_alone && at_end.is_some_and(|target| target.ids() == last.ids);
         let mut visitor = NearestPrimitives::up_to(0.0);
-        if let Some(Meeting {
-            mut hit, measured, ..
-        }) = known
-        {
-            hit.key.pair = others.len() as u32;
-            visitor.take(hit, 0.0, None);
-            visitor.measured = measured;
+        if let Some(mut known) = last.filter(is_known) {
+            known.hit.key.pair = candidates.len() as u32 - 1;
+            visitor.take(known.hit, 0.0, None);
+            visitor.measured = known.measured;
         }
         let found = self.nearest_from(&candidates, visitor)?;
         let distance = self.distance_of_found(group, scene, &found, 0.0);
@@ -259,18 +254,26 @@ impl QueryContext {
     ) -> Result<RecentDistance> {
         let ids = self.recent.map(|key| key.ids());
         let (mut at_most, mut meets) = (limit, None);
+        let mut terms = 0;
         self.visit_recent(scene, group, |pairing, places, margin, scratch| {
             let mut visitor = NearestPrimitives::up_to(at_most);
             visitor.margin = margin;
             let _ = visit_pair(pairing, places, scratch, &mut visitor);
-            at_most = visitor.limit();
+            (at_most, terms) = (visitor.limit(), terms + 1);
             if let Some((ids, hit)) = ids.zip(visitor.best)
                 && hit.distance == 0.0
             {
-                let measured = visitor.measured;
-                meets = Some(Meeting { ids, hit, measured });
+                meets = Some(Meeting {
+                    ids,
+                    hit,
+                    measured: visitor.measured,
+                    is_alone: true,
+                });
             }
         })?;
+        if let Some(meets) = &mut meets {
+            meets.is_alone = terms == 1;
+        }
         Ok(RecentDistance { at_most, meets })
     }
 

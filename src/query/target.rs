@@ -1,5 +1,7 @@
 //! A body pair as the target of a search.
 
+use std::cmp::Ordering;
+
 use super::answer::SSide;
 use super::cache_key::{CacheKey, PairIds};
 use crate::body::Body;
@@ -75,6 +77,20 @@ impl<'a> Target<'a> {
     #[inline(always)]
     pub fn ids(&self) -> PairIds {
         self.key.ids()
+    }
+
+    /// An order of pairs with the same ids, by their bodies and where these are.
+    pub fn order_of_states(&self, other: &Self) -> Ordering {
+        let sides = self.sides.iter().zip(&other.sides);
+        let orders = sides.map(|((a, pose_a), (b, pose_b))| {
+            // Zeros of either sign are equal.
+            let numbers = |pose: &Pose| pose.to_row_major().map(|x| x + 0.0);
+            let numbers = numbers(pose_a).into_iter().zip(numbers(pose_b));
+            numbers.fold(a.serial().cmp(&b.serial()), |order, (x, y)| {
+                order.then_with(|| x.total_cmp(&y))
+            })
+        });
+        orders.fold(Ordering::Equal, Ordering::then)
     }
 
     /// The link that moves the r-side, and the one that moves the s-side, if one does.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use cstk::body::Body;
 use cstk::cobject::{CObject, InducedOptions};
-use cstk::environment::Environment;
+use cstk::environment::{Change, Environment};
 use cstk::pose::{Pose, Vec3, rotation_about};
 use cstk::query::{Configuration, Distance, DistanceKind, QueryContext, SSide};
 use cstk::robot::JointKind;
@@ -144,4 +144,68 @@ fn of_pairs_that_meet_the_first_is_answered_whatever_was_asked_before() {
         }
     }
     assert!(meeting > 200 && apart > 50, "{meeting} {apart}");
+}
+
+/// An environment and an older state of it, in which objects are elsewhere, by several terms with other margins: which of two pairs with
+/// the same ids is answered depends on where they are, not on what was asked before.
+#[test]
+fn of_two_states_of_an_object_the_same_is_answered_whatever_was_asked_before() {
+    let mut random = Random::new(12);
+    let ball = hulls(&[box_corners([0.5, 0.4, 0.3])]).body;
+    let (mut met, mut twice) = (0, 0);
+    for case in 0..150 {
+        let links = (0..2).map(|_| {
+            let mut link = link(None, JointKind::Prismatic, Vec3::x());
+            link.body = Some(ball.clone());
+            link
+        });
+        let space = space(vec![robot(3, links.collect())]);
+        let places = [random.pose(0.6), random.pose(0.6)];
+        let (live, ids) = environment(&places.map(|at| (&ball, at)));
+        let old = Arc::new(live.freeze());
+        let moves = ids.iter().map(|&id| Change::Move {
+            id,
+            pose: random.pose(0.6),
+        });
+        live.apply(&moves.collect::<Vec<_>>()).unwrap();
+        let terms: Vec<Arc<CObject>> = (0..4)
+            .map(|_| {
+                let world = [&old, &live][random.below(2)];
+                let options = InducedOptions {
+                    margin: [0.0, 0.2][random.below(2)],
+                    ..InducedOptions::default()
+                };
+                Arc::new(against_with(&space, world, options))
+            })
+            .collect();
+        let union = CObject::union(&terms).unwrap();
+        let mut used = QueryContext::new();
+        for _ in 0..20 {
+            let q = [random.within(-0.6, 0.6), random.within(-0.6, 0.6)];
+            let at = Configuration::Coordinates(&q);
+            if random.below(2) == 0 {
+                let part = &terms[random.below(terms.len())];
+                used.distance(part, at, f64::INFINITY).unwrap();
+            }
+            let warm = used.distance(&union, at, f64::INFINITY).unwrap();
+            let cold = QueryContext::new()
+                .distance(&union, at, f64::INFINITY)
+                .unwrap();
+            assert_eq!(told(&warm), told(&cold), "case {case}");
+            assert_eq!((warm.lower, warm.upper), (cold.lower, cold.upper));
+            assert_eq!(warm.points, cold.points, "case {case}");
+            let leaf = |found: &Distance| found.witness.as_ref().unwrap().leaf;
+            assert_eq!(leaf(&warm), leaf(&cold), "case {case}");
+            let parts = terms.iter().map(|part| {
+                let mut fresh = QueryContext::new();
+                fresh.distance(part, at, f64::INFINITY).unwrap().distance
+            });
+            let parts: Vec<f64> = parts.collect();
+            let least = parts.iter().copied().fold(f64::INFINITY, f64::min);
+            assert_eq!(warm.distance, least, "case {case}");
+            met += usize::from(least == 0.0);
+            twice += usize::from(parts.iter().filter(|&&part| part == 0.0).count() > 1);
+        }
+    }
+    assert!(met > 1000 && twice > 500, "{met} {twice}");
 }
