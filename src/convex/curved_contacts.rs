@@ -90,6 +90,8 @@ fn smooth_contact(
     let is_apart = closest.distance > least && direction != Vec3::zeros();
     let (normal, gap, points) = if is_apart {
         (direction, closest.distance, closest.points)
+    } else if are_dwarfed(r, s) {
+        return None;
     } else {
         smooth_touch(r, s, &closest, direction, precision)?
     };
@@ -101,6 +103,24 @@ fn smooth_contact(
         mode: mode_of(closest.features)?,
         features: closest.features,
     })
+}
+
+/// Cores that touch have no contact where the radii are more than this many times larger than they. All lengths below which cores touch
+/// are parts of the pair's size, radii included, and the steps to their normal shift them by [`LAST_SHIFT`] of it: a tenth of the cores
+/// here. A larger value gives contacts whose normals are off, of a ball a million times as large as what is in its centre by 30
+/// degrees; a smaller one leaves out some that are right.
+const MAX_RADII: f64 = 1e3;
+
+/// Whether the radii of two primitives are so much larger than their cores.
+#[cold]
+fn are_dwarfed(r: &PlacedPrimitive, s: &PlacedPrimitive) -> bool {
+    let radii = r.shape.radius() + s.shape.radius();
+    let widths = [r, s].map(|placed| {
+        let core = Core::of(placed);
+        let along = |axis: Vec3| (core.support(&axis) - core.support(&-axis)).dot(&axis);
+        along(Vec3::x()).max(along(Vec3::y())).max(along(Vec3::z()))
+    });
+    radii > MAX_RADII * widths[0].max(widths[1])
 }
 
 /// At most 40 steps towards the normal of touching cores, four of them at larger shifts than [`LAST_SHIFT`]. With fewer, more

@@ -286,3 +286,61 @@ fn balls_and_solids_have_the_bits_of_their_witness_list() {
     }
     assert!(contacts > 4000, "{contacts}");
 }
+
+/// A ball whose centre is in the face of a solid has the face's normal as its contact, or none where it is so large that a millionth of it
+/// is as large as the solid.
+#[test]
+fn balls_in_the_middle_of_a_face_have_its_normal_or_none() {
+    let solids: [fn(&mut BodyBuilder); 3] = [
+        |builder| {
+            builder
+                .add_cylinder(&Pose::identity(), 1.0, 0.5, 0)
+                .unwrap()
+        },
+        |builder| {
+            builder
+                .add_ellipsoid(&Pose::identity(), &Vec3::new(1.0, 1.0, 0.5), 0)
+                .unwrap()
+        },
+        |builder| {
+            builder
+                .add_box(&Pose::identity(), &Vec3::new(1.0, 1.0, 0.5), 0)
+                .unwrap()
+        },
+    ];
+    for (kind, solid) in solids.into_iter().enumerate() {
+        let made = |add: &dyn Fn(&mut BodyBuilder)| {
+            let mut builder = BodyBuilder::new(3).unwrap();
+            add(&mut builder);
+            built(&builder, &Default::default())
+        };
+        let solid = made(&solid);
+        for exponent in -1..9 {
+            let radius = 10f64.powi(exponent);
+            let ball = made(&|builder| builder.add_sphere(&Vec3::zeros(), radius, 0).unwrap());
+            let at = Pose::from_translation(Vec3::new(0.1, -0.2, 0.5));
+            let at = match kind {
+                1 => Pose::from_translation(Vec3::new(0.0, 0.0, 0.5)),
+                _ => at,
+            };
+            let mut query = QueryContext::new();
+            let found = query
+                .pair_distance((&solid, &Pose::identity()), (&ball, &at), f64::INFINITY)
+                .unwrap();
+            assert_eq!(found.distance, 0.0);
+            let Some(contact) = found.contact else {
+                assert!(radius > 500.0, "{kind} {radius}");
+                continue;
+            };
+            assert!(
+                (contact.normal + Vec3::z()).norm() < 1e-6,
+                "{kind} {radius} {}",
+                contact.normal
+            );
+            assert!(
+                (contact.clearance + radius).abs() < 1e-10 * radius.max(1.0),
+                "{kind} {radius}"
+            );
+        }
+    }
+}
