@@ -3308,7 +3308,8 @@ cstk_status cstk_cobject_release(cstk_cobject *cobject);
 
 /**
  * Creates the union of `count` C-objects of one space: its class is the largest of theirs. It keeps references to its
- * parts. A body pair that several induced parts hold in the same state counts once, with the largest margin.
+ * parts. A body pair that several induced parts hold in the same state counts once, with the largest margin; a pair of links in one
+ * part and the same two the other way round in another are two pairs.
  *
  * Sets of any kind may be combined, to a depth of 256 (a union in a union adds no level). A union may be grown one part at
  * a time: each call takes time in proportion to `count`, the first query of the result in proportion to all parts. All
@@ -3319,7 +3320,8 @@ cstk_status cstk_cobject_release(cstk_cobject *cobject);
  *   than a predicate) is exact; from that of an induced set it is 0 where nothing meets, otherwise unknown:
  *   CSTK_DISTANCE_LOWER_BOUND, from 0.
  *
- * cstk_within(t) is true where the lower bound is at most t. cstk_witnesses and cstk_gradients list every pair of every
+ * cstk_within(t) is true where the lower bound is at most t (with cstk_query_set_refinement, where it may be: its bounds are found
+ * otherwise, and both are safe). cstk_witnesses and cstk_gradients list every pair of every
  * induced leaf within epsilon, and every pure leaf (or its complement), whatever the tree combines them to; rows are the
  * derivatives of those distances. Complements and the sets beyond limits are open: on their boundary the distance is 0,
  * but the class is not CSTK_CLASS_INSIDE. Lengths and C-space units are not compared: CSTK_ERROR_UNSUPPORTED for distances

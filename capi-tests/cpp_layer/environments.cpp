@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 void scenes() {
@@ -52,6 +53,12 @@ static void named(const cstk::Space &space, const cstk::Body &body, std::uint32_
     const std::uint64_t shelf = world.add(body, cstk::translation(0, 0, 30), "shelf");
     const std::uint64_t cup = world.add_attached(body, space, hand, cstk::translation(0, 0, 20), {0}, "cup");
     REQUIRE(world.object_name(shelf) == "shelf" && world.find_object("cup") == cup);
+    /* Empty handles are not the NULL that means "nothing of the kind". */
+    const cstk::Space no_space;
+    REQUIRE(is_invalid([&] { world.add_attached(body, no_space, hand, cstk::identity()); }));
+    cstk::Environment gone;
+    const cstk::Environment kept = std::move(gone);
+    REQUIRE(is_invalid([&] { (void)cstk::Query().environment_within(kept, &gone, 0); }));
     REQUIRE(world.object(cup).link == hand && world.object(cup).touch_count == 1);
     const std::vector<double> q(space.nq(), 0.0);
     std::vector<double> gradient(space.nv(), 7);

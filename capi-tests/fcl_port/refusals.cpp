@@ -79,7 +79,15 @@ template <typename S> void refusals() {
         expect_refused<S>(box, here, wrong[i], "transform of the other " + std::to_string(i));
     }
     expect_refused<S>(fcl::Sphere<S>(-1), here, here, "a negative radius");
+    expect_refused<S>(fcl::Box<S>(-1, 1, 1), here, here, "a negative side");
+    expect_refused<S>(fcl::Capsule<S>(S(0.5), -1), here, here, "a negative length");
     expect_refused<S>(fcl::Box<S>(nan, 1, 1), here, here, "a box as wide as no number");
+    const auto faces = std::make_shared<const std::vector<int>>();
+    const auto hull = std::make_shared<fcl::Convex<S>>(std::make_shared<const std::vector<fcl::Vector3<S>>>(), 0, faces);
+    expect_refused<S>(*hull, here, here, "a hull without vertices");
+    expect(refused([&] { fcl::CollisionObject<S> object(hull, here); }), "an object of a hull without vertices");
+    expect(refused([&] { hull->findExtremeVertex(up<S>()); }), "the extreme vertex of none");
+    expect(refused([&] { fcl::Convex<S> made(nullptr, 0, faces); }), "a hull of no list of vertices");
     expect_refused<S>(fcl::Box<S>(1, 1, nan), here, here, "a box as high as no number");
     const S third[3] = {1, nan, 1};
     const std::vector<fcl::Vector3<S>> corners = {{0, 0, -1}, {1, 0, 1}, {0, 1, 1}};

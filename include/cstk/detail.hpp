@@ -41,6 +41,15 @@ private:
 
 namespace detail {
 
+/// The object of a handle, where C would take NULL for something else.
+template <typename T, cstk_status (*Retain)(T *), cstk_status (*Release)(T *)>
+T *given(const Handle<T, Retain, Release> &handle) {
+    if (!handle) {
+        throw std::invalid_argument("cstk: a handle is empty: default-constructed, or moved from");
+    }
+    return handle.get();
+}
+
 /// The columns of a Jacobian of 6 rows.
 inline std::size_t columns(const std::vector<double> &jacobian) {
     if (jacobian.size() % 6 != 0) {

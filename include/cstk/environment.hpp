@@ -165,7 +165,7 @@ private:
 
     static void hold(cstk_environment_change &change, const Space &space, std::uint32_t link,
                      Span<std::uint32_t> touch_links) {
-        change.space = space.get();
+        change.space = detail::given(space);
         change.link = link;
         change.touch_links = touch_links.data();
         change.touch_count = static_cast<std::uint32_t>(touch_links.size());

@@ -60,7 +60,7 @@ public:
                       std::size_t max_count = 4096,
                       const cstk_object_pair_options &options = object_pair_options()) {
         cstk_object_pair_list out;
-        check(cstk_environment_pairs(query_of(*this), environment.get(), other ? other->get() : nullptr, distance,
+        check(cstk_environment_pairs(query_of(*this), environment.get(), other ? detail::given(*other) : nullptr, distance,
                                      max_count, &options, &out));
         return out;
     }
@@ -77,7 +77,7 @@ public:
         cstk_object_pair_options options = object_pair_options(with_distances);
         options.filter = &detail::ObjectFilter<F>::call;
         options.user = &call;
-        call.check(cstk_environment_pairs(query_of(*this), environment.get(), other ? other->get() : nullptr,
+        call.check(cstk_environment_pairs(query_of(*this), environment.get(), other ? detail::given(*other) : nullptr,
                                           distance, max_count, &options, &out));
         return out;
     }
@@ -86,7 +86,7 @@ public:
     [[nodiscard]] bool environment_within(const Environment &environment, const Environment *other, double threshold,
                             const cstk_object_pair_options &options = object_pair_options()) {
         bool out = false;
-        check(cstk_environment_within(query_of(*this), environment.get(), other ? other->get() : nullptr,
+        check(cstk_environment_within(query_of(*this), environment.get(), other ? detail::given(*other) : nullptr,
                                       threshold, &options, &out));
         return out;
     }
@@ -97,7 +97,7 @@ public:
                          double max_distance = std::numeric_limits<double>::infinity(),
                          const cstk_object_pair_options &options = object_pair_options()) {
         cstk_distance_result out;
-        check(cstk_environment_distance(query_of(*this), environment.get(), other ? other->get() : nullptr,
+        check(cstk_environment_distance(query_of(*this), environment.get(), other ? detail::given(*other) : nullptr,
                                         max_distance, &options, &out));
         return out;
     }
@@ -108,7 +108,7 @@ public:
                           std::size_t max_count = 4096,
                           const cstk_object_pair_options &options = object_pair_options()) {
         cstk_witness_list out;
-        check(cstk_environment_witnesses(query_of(*this), environment.get(), other ? other->get() : nullptr,
+        check(cstk_environment_witnesses(query_of(*this), environment.get(), other ? detail::given(*other) : nullptr,
                                          epsilon, max_count, &options, &out));
         return out;
     }

@@ -4,7 +4,9 @@
 
 #include <cstk/fcl/geometry.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace cstk_fcl {
 
@@ -25,7 +27,8 @@ public:
     const cstk::Body &body() const override {
         const std::array<double, 3> half = half_sides();
         return body_.of(half, [&half](cstk::BodyBuilder &builder) {
-            if (half[0] > 0 && half[1] > 0 && half[2] > 0) {
+            /* The library refuses sides below 0; a flat box is a hull. */
+            if (*std::min_element(half.begin(), half.end()) != 0) {
                 builder.add_box(cstk::identity(), half);
                 return;
             }
@@ -133,6 +136,9 @@ public:
 
     const cstk::Body &body() const override {
         return body_.of({static_cast<double>(radius), static_cast<double>(lz)}, [this](cstk::BodyBuilder &builder) {
+            if (lz < 0) {
+                throw std::invalid_argument("cstk_fcl: a Capsule has a negative length");
+            }
             builder.add_capsule({0, 0, -lz / 2.0}, {0, 0, lz / 2.0}, radius);
         });
     }
@@ -220,6 +226,9 @@ public:
     Convex(const std::shared_ptr<const std::vector<Vector3<S>>> &vertices, int num_faces,
            const std::shared_ptr<const std::vector<int>> &faces, bool /* throw_if_invalid */ = false)
         : vertices_(vertices), num_faces_(num_faces), faces_(faces) {
+        if (vertices_ == nullptr) {
+            throw std::invalid_argument("cstk_fcl: a Convex is made of no vertices");
+        }
         for (const Vector3<S> &vertex : *vertices_) {
             interior_point_ += vertex / static_cast<S>(vertices_->size());
         }
@@ -234,7 +243,7 @@ public:
     const Vector3<S> &getInteriorPoint() const { return interior_point_; }
 
     const Vector3<S> &findExtremeVertex(const Vector3<S> &direction) const {
-        const Vector3<S> *farthest = &vertices_->front();
+        const Vector3<S> *farthest = &first_vertex();
         for (const Vector3<S> &vertex : *vertices_) {
             farthest = direction.dot(vertex) > direction.dot(*farthest) ? &vertex : farthest;
         }
@@ -252,7 +261,7 @@ public:
     }
 
     Eigen::Vector3d support_point(const Eigen::Vector3d &direction, std::size_t) const override {
-        Eigen::Vector3d farthest = vertices_->front().template cast<double>();
+        Eigen::Vector3d farthest = first_vertex().template cast<double>();
         for (const Vector3<S> &vertex : *vertices_) {
             const Eigen::Vector3d other = vertex.template cast<double>();
             farthest = direction.dot(other) > direction.dot(farthest) ? other : farthest;
@@ -261,6 +270,13 @@ public:
     }
 
 private:
+    const Vector3<S> &first_vertex() const {
+        if (vertices_->empty()) {
+            throw std::invalid_argument("cstk_fcl: a Convex is made of no vertices");
+        }
+        return vertices_->front();
+    }
+
     std::shared_ptr<const std::vector<Vector3<S>>> vertices_;
     int num_faces_;
     std::shared_ptr<const std::vector<int>> faces_;
