@@ -60,11 +60,16 @@ class Bounded {
                 return;
             }
         }
+        // Of two shapes Coal overwrites what the result holds, be it nearer or not.
+        const bool keeps_bound = is_mesh(pair.first) || is_mesh(pair.second);
+        coal::DistanceResult &result = keeps_bound ? result_ : of_shapes_;
+        of_shapes_.clear();
         const double before = result_.min_distance;
         scene_->placed.distance_functors[number](pin::toCoalTransform3s(a),
                                                  pin::toCoalTransform3s(b),
-                                                 scene_->placed.distanceRequests[number], result_);
-        if (result_.min_distance < before) {
+                                                 scene_->placed.distanceRequests[number], result);
+        if (result.min_distance < before) {
+            result_.min_distance = result.min_distance;
             last = number;
         }
     }
@@ -79,7 +84,7 @@ class Bounded {
 
     ScenePtr scene_;
     std::vector<std::optional<coal::RSS>> volumes_;
-    coal::DistanceResult result_;
+    coal::DistanceResult result_, of_shapes_;
 };
 
 enum class Order { as_given, nearest_first };
