@@ -3320,9 +3320,9 @@ cstk_status cstk_cobject_release(cstk_cobject *cobject);
  *   than a predicate) is exact; from that of an induced set it is 0 where nothing meets, otherwise unknown:
  *   CSTK_DISTANCE_LOWER_BOUND, from 0.
  *
- * cstk_within(t) is true where the lower bound is at most t (with cstk_query_set_refinement, where it may be: its bounds are found
- * otherwise, and both are safe). cstk_witnesses and cstk_gradients list every pair of every
- * induced leaf within epsilon, and every pure leaf (or its complement), whatever the tree combines them to; rows are the
+ * cstk_within(t) is true where the lower bound is at most t. (Where surfaces are refined, see cstk_query_set_refinement, it may also be
+ * false within `gap` of that: it has proved a higher bound.) cstk_witnesses and cstk_gradients list every pair of every induced leaf
+ * within epsilon, and every pure leaf (or its complement), whatever the tree combines them to; rows are the
  * derivatives of those distances. Complements and the sets beyond limits are open: on their boundary the distance is 0,
  * but the class is not CSTK_CLASS_INSIDE. Lengths and C-space units are not compared: CSTK_ERROR_UNSUPPORTED for distances
  * where a pure set without a scale is combined with an induced one.
@@ -3923,7 +3923,8 @@ typedef struct cstk_contact {
   /**
    * The signed distance between the points, less the C-object's margin. It is negative within the margin, and where
    * primitives overlap slightly: by at most 1e-6 of the pair's size, or, for round ones, as deep as their radii allow
-   * while their cores are apart.
+   * while their cores are apart: by 1e-6 of
+   * the pair's size at least, where a smooth core is a thousand times smaller than the radii.
    */
   double clearance;
   uint64_t reserved[2];

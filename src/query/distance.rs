@@ -152,7 +152,7 @@ impl QueryContext {
         let mut distance = Distance::unknown();
         let meets = recent.meets.is_some();
         if meets || self.met_last {
-            distance = self.distance_if_meeting(group, scene, recent.meets)?;
+            distance = self.distance_if_meeting(checked, scene, recent.meets)?;
         }
         if !meets && !distance.is_zero() {
             let filter = CandidateFilter {
@@ -184,7 +184,7 @@ impl QueryContext {
     /// meets.
     fn distance_if_meeting(
         &mut self,
-        group: &Group,
+        group: CheckedGroup,
         scene: &Scene,
         last: Option<Meeting>,
     ) -> Result<Distance> {
@@ -193,7 +193,7 @@ impl QueryContext {
             last: last.map(|last| last.ids),
             ..CandidateFilter::within(0.0)
         };
-        let candidates = self.candidates(scene, scene.checked(group)?, filter)?;
+        let candidates = self.candidates(scene, group, filter)?;
         // The last of the list is this pair, if it is there.
         let at_end = candidates.last();
         let is_known =
@@ -205,7 +205,7 @@ impl QueryContext {
             visitor.measured = known.measured;
         }
         let found = self.nearest_from(&candidates, visitor)?;
-        let distance = self.distance_of_found(group, scene, &found, 0.0);
+        let distance = self.distance_of_found(&group, scene, &found, 0.0);
         self.keep_memory(candidates);
         Ok(distance)
     }

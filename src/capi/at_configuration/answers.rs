@@ -70,7 +70,8 @@ pub struct cstk_contact {
     pub reserved_word: u32,
     /// The signed distance between the points, less the C-object's margin. It is negative within the margin, and where
     /// primitives overlap slightly: by at most 1e-6 of the pair's size, or, for round ones, as deep as their radii allow
-    /// while their cores are apart.
+    /// while their cores are apart: by 1e-6 of
+    /// the pair's size at least, where a smooth core is a thousand times smaller than the radii.
     pub clearance: f64,
     pub reserved: [u64; 2],
 }
