@@ -1,133 +1,10 @@
-/* Batches with bad handles, arrays, numbers and options; items that fail alone; batches that are cancelled, or called back into; and
- * answers equal to those of single calls. */
+/* Batches with bad handles, arrays, numbers and options; items that fail alone; batches that are cancelled, or called back into. */
 #include <math.h>
 #include <stddef.h>
 
+#include "batch_calls.h"
 #include "check.h"
 #include "fixture.h"
-
-enum { NQ = FIXTURE_NQ, COUNT = 40 };
-
-/* All that batches write. */
-typedef struct outputs {
-    cstk_class classes[COUNT];
-    bool within[COUNT];
-    double distances[COUNT];
-    double gradients[COUNT * NQ];
-    double reached[COUNT * NQ];
-    cstk_distance_result results[COUNT];
-    cstk_motion_result motions[COUNT];
-    cstk_status statuses[COUNT];
-    cstk_batch_result done;
-} outputs;
-
-/* The arguments of every call, to be spoilt one at a time. */
-typedef struct inputs {
-    cstk_batch *batch;
-    const cstk_cobject *cobject;
-    const cstk_body *body_a;
-    const cstk_body *body_b;
-    const double *q;
-    const double *q1;
-    const double *poses_a;
-    const double *poses_b;
-    size_t count;
-    size_t nq;
-    size_t nv;
-    double limit;
-    const cstk_batch_options *options;
-    const cstk_motion_options *motion_options;
-    cstk_progress_fn progress;
-    void *user;
-    /* Which arrays are passed as NULL. */
-    bool without_answers;
-    bool without_gradients;
-    bool without_statuses;
-    bool without_out;
-} inputs;
-
-typedef cstk_status (*call)(const inputs *in, outputs *out);
-
-#define GIVEN(flag, array) (in->without_##flag ? NULL : (array))
-
-static cstk_status classify(const inputs *in, outputs *out) {
-    return cstk_classify_batch(in->batch, in->cobject, in->q, in->count, in->nq, in->options,
-                               in->progress, in->user, GIVEN(answers, out->classes),
-                               GIVEN(statuses, out->statuses), GIVEN(out, &out->done));
-}
-
-static cstk_status within(const inputs *in, outputs *out) {
-    return cstk_within_batch(in->batch, in->cobject, in->q, in->count, in->nq, in->limit,
-                             in->options, in->progress, in->user, GIVEN(answers, out->within),
-                             GIVEN(statuses, out->statuses), GIVEN(out, &out->done));
-}
-
-static cstk_status distance(const inputs *in, outputs *out) {
-    return cstk_distance_batch(in->batch, in->cobject, in->q, in->count, in->nq, in->limit,
-                               in->options, in->progress, in->user,
-                               GIVEN(answers, out->distances), GIVEN(answers, out->results),
-                               GIVEN(gradients, out->gradients), in->nv,
-                               GIVEN(statuses, out->statuses), GIVEN(out, &out->done));
-}
-
-static cstk_status motion(const inputs *in, outputs *out) {
-    return cstk_motion_batch(in->batch, in->cobject, in->q, in->q1, in->count, in->nq,
-                             in->motion_options, in->options, in->progress, in->user, out->reached,
-                             GIVEN(answers, out->motions), GIVEN(statuses, out->statuses),
-                             GIVEN(out, &out->done));
-}
-
-static cstk_status pair_within(const inputs *in, outputs *out) {
-    return cstk_pair_within_batch(in->batch, in->body_a, in->poses_a, in->body_b, in->poses_b,
-                                  in->count, in->limit, in->options, in->progress, in->user,
-                                  GIVEN(answers, out->within), GIVEN(statuses, out->statuses),
-                                  GIVEN(out, &out->done));
-}
-
-static cstk_status pair_distance(const inputs *in, outputs *out) {
-    return cstk_pair_distance_batch(in->batch, in->body_a, in->poses_a, in->body_b, in->poses_b,
-                                    in->count, in->limit, in->options, in->progress, in->user,
-                                    GIVEN(answers, out->distances), GIVEN(answers, out->results),
-                                    GIVEN(statuses, out->statuses), GIVEN(out, &out->done));
-}
-
-static const call of_robots[] = {classify, within, distance, motion};
-static const call of_pairs[] = {pair_within, pair_distance};
-static const call all_calls[] = {classify, within, distance, motion, pair_within, pair_distance};
-
-#define EACH_CALL(i, calls) for (size_t i = 0; i < sizeof(calls) / sizeof(calls[0]); ++i)
-
-static double configurations[(COUNT + 1) * NQ];
-static double poses_a[COUNT * 12];
-static double poses_b[COUNT * 12];
-
-static inputs good_inputs(const fixture *f) {
-    inputs in;
-    memset(&in, 0, sizeof in);
-    in.batch = f->batch;
-    in.cobject = f->cobject;
-    in.body_a = f->body;
-    in.body_b = f->body;
-    in.q = configurations;
-    in.q1 = configurations + NQ;
-    in.poses_a = poses_a;
-    in.poses_b = poses_b;
-    in.count = COUNT;
-    in.nq = NQ;
-    in.nv = NQ;
-    in.limit = 0.5;
-    return in;
-}
-
-static void fill(void) {
-    for (int i = 0; i < (COUNT + 1) * NQ; ++i) {
-        configurations[i] = 0.5 * sin(0.7 * i);
-    }
-    for (int i = 0; i < COUNT; ++i) {
-        translation(0.03 * i, 0.01 * i, 0, &poses_a[12 * i]);
-        translation(0.5, 0, 0.02 * i, &poses_b[12 * i]);
-    }
-}
 
 static outputs out;
 
@@ -152,10 +29,10 @@ static void bad_arguments(const fixture *f) {
         in = good_inputs(f);
     }
     in.without_answers = true;
-    CHECK_REFUSED(out, classify(&in, &out), CSTK_ERROR_NULL_ARGUMENT, "classes");
-    CHECK_REFUSED(out, within(&in, &out), CSTK_ERROR_NULL_ARGUMENT, "within");
-    CHECK_REFUSED(out, motion(&in, &out), CSTK_ERROR_NULL_ARGUMENT, "results");
-    CHECK_REFUSED(out, pair_within(&in, &out), CSTK_ERROR_NULL_ARGUMENT, "within");
+    CHECK_REFUSED(out, batch_classify(&in, &out), CSTK_ERROR_NULL_ARGUMENT, "classes");
+    CHECK_REFUSED(out, batch_within(&in, &out), CSTK_ERROR_NULL_ARGUMENT, "within");
+    CHECK_REFUSED(out, batch_motion(&in, &out), CSTK_ERROR_NULL_ARGUMENT, "results");
+    CHECK_REFUSED(out, batch_pair_within(&in, &out), CSTK_ERROR_NULL_ARGUMENT, "within");
     EACH_CALL(i, of_robots) {
         EACH_BAD_HANDLE(f, NOUN_COBJECT, bad) {
             in = good_inputs(f);
@@ -174,13 +51,13 @@ static void bad_arguments(const fixture *f) {
     }
     in = good_inputs(f);
     in.q1 = NULL;
-    CHECK_REFUSED(out, motion(&in, &out), CSTK_ERROR_NULL_ARGUMENT, "q1");
+    CHECK_REFUSED(out, batch_motion(&in, &out), CSTK_ERROR_NULL_ARGUMENT, "q1");
     in = good_inputs(f);
     in.nv = NQ - 1;
-    CHECK_REFUSED(out, distance(&in, &out), CSTK_ERROR_WRONG_SIZE, "nv");
+    CHECK_REFUSED(out, batch_distance(&in, &out), CSTK_ERROR_WRONG_SIZE, "nv");
     in.nv = NQ;
     in.without_gradients = true;
-    CHECK_REFUSED(out, distance(&in, &out), CSTK_ERROR_WRONG_SIZE, "nv must be 0 without");
+    CHECK_REFUSED(out, batch_distance(&in, &out), CSTK_ERROR_WRONG_SIZE, "nv must be 0 without");
     EACH_CALL(i, of_pairs) {
         EACH_BAD_HANDLE(f, NOUN_BODY, bad) {
             in = good_inputs(f);
@@ -200,7 +77,7 @@ static void bad_arguments(const fixture *f) {
 }
 
 static void bad_numbers(const fixture *f) {
-    const call measured[] = {within, distance, pair_within, pair_distance};
+    const batch_call measured[] = {batch_within, batch_distance, batch_pair_within, batch_pair_distance};
     EACH_CALL(i, measured) {
         inputs in = good_inputs(f);
         in.limit = NAN;
@@ -226,11 +103,11 @@ static void bad_numbers(const fixture *f) {
     inputs in = good_inputs(f);
     EACH_BAD_OPTIONS(motion_options, bad) {
         in.motion_options = bad->options;
-        CHECK_REFUSED(out, motion(&in, &out), bad->status, "motion_options");
+        CHECK_REFUSED(out, batch_motion(&in, &out), bad->status, "motion_options");
     }
     in.motion_options = &motion_options;
     motion_options.tolerance = 0;
-    CHECK_REFUSED(out, motion(&in, &out), CSTK_ERROR_INVALID_ARGUMENT, "tolerance");
+    CHECK_REFUSED(out, batch_motion(&in, &out), CSTK_ERROR_INVALID_ARGUMENT, "tolerance");
 }
 
 static void bad_handles_of_the_batch(const fixture *f) {
@@ -286,7 +163,7 @@ static void items_that_fail(const fixture *f) {
             poses_a[12 * 30] = 2;
             memset(&out, CHECK_SENTINEL, sizeof out);
             CHECK_OK(all_calls[i](&in, &out));
-            fill();
+            fill_items();
             const bool pairs = i >= 4;
             const size_t failed = pairs ? 2 : 1;
             CHECK(out.done.failed == failed && out.done.answered == COUNT - failed);
@@ -411,128 +288,14 @@ static void released_meanwhile(const fixture *f) {
     in.batch = batch;
     in.progress = release_batch;
     in.user = &batch;
-    CHECK_OK(classify(&in, &out));
+    CHECK_OK(batch_classify(&in, &out));
     CHECK(batch == NULL && out.done.answered == COUNT);
-}
-
-static bool same(const void *a, const void *b, size_t size) { return memcmp(a, b, size) == 0; }
-
-static void same_distance(const cstk_distance_result *a, const cstk_distance_result *b) {
-    CHECK(a->kind == b->kind && a->has_witness == b->has_witness);
-    CHECK(same(&a->distance, &b->distance, sizeof a->distance));
-    CHECK(same(&a->lower, &b->lower, sizeof a->lower) && same(&a->upper, &b->upper, sizeof a->upper));
-    CHECK(same(a->r_point, b->r_point, sizeof a->r_point));
-    CHECK(same(a->contact.normal, b->contact.normal, sizeof a->contact.normal));
-    CHECK(a->witness.r_link == b->witness.r_link && a->witness.s_object == b->witness.s_object);
-    CHECK(a->environment_version == b->environment_version);
-}
-
-/* The batch's answers for one item against those of single calls. */
-static void same_as_single(const fixture *f, const outputs *of_all[], int k) {
-    const double *q = &configurations[NQ * k];
-    cstk_class class_of;
-    bool is_within;
-    cstk_distance_result nearest;
-    cstk_motion_result moved;
-    double reached[NQ];
-    CHECK_OK(cstk_classify(f->query, f->cobject, q, NQ, &class_of));
-    CHECK(class_of == of_all[0]->classes[k]);
-    CHECK_OK(cstk_within(f->query, f->cobject, q, NQ, 0.5, &is_within));
-    CHECK(is_within == of_all[1]->within[k]);
-    CHECK_OK(cstk_distance(f->query, f->cobject, q, NQ, 0.5, &nearest));
-    same_distance(&nearest, &of_all[2]->results[k]);
-    CHECK(same(&nearest.distance, &of_all[2]->distances[k], sizeof(double)));
-    if (nearest.has_contact) {
-        cstk_witness_list list;
-        CHECK_OK(cstk_gradients(f->query, f->cobject, q, NQ, nearest.upper, 1, &list));
-        CHECK(same(list.gradients, &of_all[2]->gradients[NQ * k], NQ * sizeof(double)));
-    } else {
-        const double zeros[NQ] = {0};
-        CHECK(same(zeros, &of_all[2]->gradients[NQ * k], sizeof zeros));
-    }
-    CHECK_OK(cstk_motion(f->query, f->cobject, q, q + NQ, NQ, NULL, reached, &moved));
-    CHECK(moved.outcome == of_all[3]->motions[k].outcome);
-    CHECK(same(moved.times, of_all[3]->motions[k].times, sizeof moved.times));
-    CHECK(same(reached, &of_all[3]->reached[NQ * k], sizeof reached));
-    const double *a = &poses_a[12 * k];
-    const double *b = &poses_b[12 * k];
-    CHECK_OK(cstk_pair_within(f->query, f->body, a, f->body, b, 0.5, &is_within));
-    CHECK(is_within == of_all[4]->within[k]);
-    CHECK_OK(cstk_pair_distance(f->query, f->body, a, f->body, b, 0.5, &nearest));
-    same_distance(&nearest, &of_all[5]->results[k]);
-}
-
-static void answers(const fixture *f) {
-    static outputs each[6];
-    const outputs *of_all[6];
-    cstk_batch_options options;
-    CHECK_OK(cstk_batch_options_default(&options, sizeof options));
-    CHECK(options.threads == 0 && options.stop_at_hit == 0 && options.limit == 0);
-    CHECK_OK(cstk_query_set_contacts(f->query, CSTK_CONTACTS_NEAREST));
-    for (uint32_t threads = 0; threads < 9; threads += 4) {
-        options.threads = threads;
-        inputs in = good_inputs(f);
-        in.options = &options;
-        EACH_CALL(i, all_calls) {
-            of_all[i] = &each[i];
-            CHECK_OK(all_calls[i](&in, &each[i]));
-            CHECK(each[i].done.answered == COUNT && each[i].done.failed == 0);
-            CHECK(each[i].done.environment_version == (i < 4 ? 1 : 0));
-        }
-        for (int k = 0; k < COUNT; ++k) {
-            same_as_single(f, of_all, k);
-        }
-    }
-    CHECK_OK(cstk_query_set_contacts(f->query, CSTK_CONTACTS_ALL));
-    cstk_query_statistics done;
-    CHECK_OK(cstk_batch_get_statistics(f->batch, true, &done));
-    CHECK(done.primitive_pairs > 0);
-    CHECK_OK(cstk_batch_get_statistics(f->batch, false, &done));
-    CHECK(done.primitive_pairs == 0 && done.node_pairs == 0);
-}
-
-static void first_hits(const fixture *f) {
-    cstk_batch_options options;
-    CHECK_OK(cstk_batch_options_default(&options, sizeof options));
-    options.stop_at_hit = 1;
-    inputs in = good_inputs(f);
-    in.options = &options;
-    bool meets[COUNT];
-    size_t first = COUNT;
-    for (int k = COUNT - 1; k >= 0; --k) {
-        CHECK_OK(cstk_pair_within(f->query, f->body, &poses_a[12 * k], f->body, &poses_b[12 * k], 0,
-                                  &meets[k]));
-        first = meets[k] ? (size_t)k : first;
-    }
-    for (uint32_t threads = 1; threads < 5; ++threads) {
-        options.threads = threads;
-        in.limit = 0;
-        CHECK_OK(pair_within(&in, &out));
-        CHECK(out.done.has_hit == (first < COUNT));
-        if (first < COUNT) {
-            CHECK(out.done.first_hit == first && out.done.answered == first + 1);
-            CHECK(out.within[first] && out.statuses[first] == CSTK_OK);
-            for (size_t k = first + 1; k < COUNT; ++k) {
-                CHECK(out.statuses[k] == CSTK_ERROR_CANCELLED);
-            }
-        }
-    }
-    /* The arm is free at all configurations. */
-    CHECK_OK(classify(&in, &out));
-    CHECK(!out.done.has_hit && out.done.answered == COUNT);
-    options.stop_at_hit = 0;
-    options.limit = 1;
-    in.limit = INFINITY;
-    CHECK_OK(pair_distance(&in, &out));
-    CHECK(out.done.failed == COUNT && out.done.answered == 0 && out.done.first_failed == 0);
-    CHECK(out.statuses[COUNT - 1] == CSTK_ERROR_LIMIT);
-    CHECK(strstr(cstk_last_error_message(), "limit of 1") != NULL);
 }
 
 int main(void) {
     fixture f;
     fixture_create(&f);
-    fill();
+    fill_items();
     bad_arguments(&f);
     bad_numbers(&f);
     bad_handles_of_the_batch(&f);
@@ -541,8 +304,6 @@ int main(void) {
     progress(&f);
     overlaps(&f);
     released_meanwhile(&f);
-    answers(&f);
-    first_hits(&f);
     fixture_unchanged(&f);
     fixture_release(&f);
     return check_result();

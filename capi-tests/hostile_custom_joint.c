@@ -3,112 +3,9 @@
 
 #include "check.h"
 #include "fixture.h"
+#include "wrist.h"
 
-enum { BASE = 0, WRIST = 1 };
 #define CULPRIT "link 1 (\"wrist\")"
-
-/* What the functions of a joint are to do; the joint turns about z by its one coordinate. */
-typedef struct wrist {
-    int32_t pose_status;
-    int32_t jacobian_status;
-    /* What they write instead of the right numbers, if anything. */
-    const double *pose;
-    const double *jacobian;
-    bool leaves_unwritten;
-    /* Called from within the pose function, if anything. */
-    void (*call)(struct wrist *);
-    const struct scene *scene;
-    cstk_status answered;
-    int destroyed;
-} wrist;
-
-static int32_t wrist_pose(const double *q, size_t n, double *pose, void *user) {
-    wrist *w = user;
-    CHECK(n == 1 && isfinite(q[0]));
-    if (w->call != NULL) {
-        w->call(w);
-    }
-    const double right[12] = {cos(q[0]), -sin(q[0]), 0, 0, sin(q[0]), cos(q[0]), 0, 0, 0, 0, 1, 0};
-    if (!w->leaves_unwritten) {
-        memcpy(pose, w->pose != NULL ? w->pose : right, sizeof right);
-    }
-    return w->pose_status;
-}
-
-static int32_t wrist_jacobian(const double *q, size_t n, double *jacobian, void *user) {
-    const wrist *w = user;
-    CHECK(n == 1 && isfinite(q[0]));
-    const double right[6] = {0, 0, 0, 0, 0, 1};
-    if (!w->leaves_unwritten) {
-        memcpy(jacobian, w->jacobian != NULL ? w->jacobian : right, sizeof right);
-    }
-    return w->jacobian_status;
-}
-
-static void wrist_destroy(void *user) { ++((wrist *)user)->destroyed; }
-
-static cstk_custom_joint good_joint(wrist *w) {
-    cstk_custom_joint joint;
-    CHECK_OK(cstk_custom_joint_default(&joint, sizeof joint));
-    joint.pose = wrist_pose;
-    joint.jacobian = wrist_jacobian;
-    joint.user = w;
-    joint.destroy = wrist_destroy;
-    joint.linear_speed = 0.0;
-    joint.angular_speed = 1.0;
-    return joint;
-}
-
-static cstk_link_def link_of(const cstk_custom_joint *joint, const cstk_body *body) {
-    cstk_link_def def;
-    CHECK_OK(cstk_link_def_default(&def, sizeof def));
-    def.name = "wrist";
-    def.body = body;
-    def.joint = CSTK_JOINT_CUSTOM;
-    def.custom = joint;
-    return def;
-}
-
-/* A base, and a box that a wrist turns; the box of the fixture's environment is in reach. */
-typedef struct scene {
-    cstk_robot_builder *builder;
-    cstk_robot *robot;
-    cstk_space *space;
-    cstk_cobject *cobject;
-    cstk_query *query;
-    double q[1];
-} scene;
-
-static void scene_create(const fixture *f, const cstk_custom_joint *joint, scene *s) {
-    cstk_link_def def;
-    cstk_induced_options options;
-    memset(s, 0, sizeof *s);
-    CHECK_OK(cstk_robot_builder_create(3, &s->builder));
-    CHECK_OK(cstk_link_def_default(&def, sizeof def));
-    CHECK_OK(cstk_robot_builder_add_link(s->builder, &def, NULL));
-    def = link_of(joint, f->body);
-    def.parent = BASE;
-    translation(2.0, 0.0, 0.0, def.at);
-    CHECK_OK(cstk_robot_builder_add_link(s->builder, &def, NULL));
-    CHECK_OK(cstk_robot_build(s->builder, &s->robot));
-    const cstk_robot *robot = s->robot;
-    CHECK_OK(cstk_space_create(&robot, 1, NULL, 0, NULL, &s->space));
-    /* Pictures show gradients of the contacts within the epsilon. */
-    CHECK_OK(cstk_induced_options_default(&options, sizeof options));
-    options.contact_epsilon = 10.0;
-    CHECK_OK(
-        cstk_cobject_induced(s->space, NULL, 0, f->environment, NULL, 0, &options, &s->cobject));
-    CHECK_OK(cstk_query_create(&s->query));
-    s->q[0] = 0.1;
-}
-
-static void scene_release(const scene *s) {
-    CHECK_OK(cstk_query_release(s->query));
-    CHECK_OK(cstk_cobject_release(s->cobject));
-    CHECK_OK(cstk_space_release(s->space));
-    CHECK_OK(cstk_robot_release(s->robot));
-    CHECK_OK(cstk_robot_builder_release(s->builder));
-}
 
 static void refuse_link(const fixture *f, const cstk_link_def *def, cstk_status status,
                         const char *culprit) {
@@ -121,7 +18,7 @@ static void bad_joints(const fixture *f) {
     wrist w = {0};
     const cstk_custom_joint good = good_joint(&w);
     cstk_custom_joint joint = good;
-    cstk_link_def def = link_of(&joint, f->body);
+    cstk_link_def def = wrist_link(&joint, f->body);
     EACH_BAD_OPTIONS(good, bad) {
         def.custom = bad->options;
         refuse_link(f, &def, bad->status, "def->custom");
@@ -162,7 +59,7 @@ static void bad_links(const fixture *f) {
     wrist w = {0};
     uint32_t out;
     const cstk_custom_joint joint = good_joint(&w);
-    const cstk_link_def good = link_of(&joint, f->body);
+    const cstk_link_def good = wrist_link(&joint, f->body);
     cstk_link_def def = good;
     EACH_BAD_HANDLE(f, NOUN_ROBOT_BUILDER, bad) {
         CHECK_REFUSED(out, cstk_robot_builder_add_link(bad->handle, &def, &out), bad->status,
@@ -429,7 +326,7 @@ static void planar_joint(const fixture *f) {
     cstk_robot_builder *builder = NULL;
     cstk_robot *robot = NULL;
     const cstk_custom_joint joint = good_joint(&w);
-    const cstk_link_def def = link_of(&joint, NULL);
+    const cstk_link_def def = wrist_link(&joint, NULL);
     CHECK_OK(cstk_robot_builder_create(2, &builder));
     CHECK_OK(cstk_robot_builder_add_link(builder, &def, NULL));
     CHECK_OK(cstk_robot_build(builder, &robot));
@@ -492,90 +389,6 @@ static void calls_back(const fixture *f) {
     fixture_unchanged(f);
 }
 
-/* User data are given back once, with the last of all that uses them, whichever that is. */
-static void destroyed_last(const fixture *f) {
-    for (int last = 0; last < 4; ++last) {
-        wrist w = {0};
-        scene s;
-        const cstk_custom_joint joint = good_joint(&w);
-        scene_create(f, &joint, &s);
-        CHECK_OK(cstk_query_release(s.query));
-        for (int i = 0; i < 4; ++i) {
-            CHECK(w.destroyed == 0);
-            switch ((last + 1 + i) % 4) {
-            case 0:
-                CHECK_OK(cstk_robot_builder_release(s.builder));
-                break;
-            case 1:
-                CHECK_OK(cstk_robot_release(s.robot));
-                break;
-            case 2:
-                CHECK_OK(cstk_space_release(s.space));
-                break;
-            default:
-                CHECK_OK(cstk_cobject_release(s.cobject));
-            }
-        }
-        CHECK(w.destroyed == 1);
-    }
-    fixture_unchanged(f);
-}
-
-/* Several robots of one builder share the data; more references to one of them do not count. */
-static void destroyed_once(const fixture *f) {
-    wrist w = {0};
-    scene s;
-    cstk_robot *other = NULL;
-    const cstk_custom_joint joint = good_joint(&w);
-    scene_create(f, &joint, &s);
-    CHECK_OK(cstk_robot_build(s.builder, &other));
-    CHECK_OK(cstk_robot_retain(other));
-    scene_release(&s);
-    CHECK_OK(cstk_robot_release(other));
-    CHECK(w.destroyed == 0);
-    double pose[12];
-    CHECK_OK(cstk_robot_link_pose(other, s.q, 1, WRIST, pose));
-    CHECK_OK(cstk_robot_release(other));
-    CHECK(w.destroyed == 1);
-    CHECK_FAILS(cstk_robot_release(other), CSTK_ERROR_WRONG_HANDLE, "robot");
-    CHECK(w.destroyed == 1);
-    fixture_unchanged(f);
-}
-
-typedef struct keeper {
-    cstk_body *body;
-    int destroyed;
-} keeper;
-
-static int32_t keeper_pose(const double *q, size_t n, double *pose, void *user) {
-    (void)q, (void)n, (void)user;
-    memcpy(pose, identity_pose, sizeof identity_pose);
-    return CSTK_OK;
-}
-
-static void keeper_destroy(void *user) {
-    keeper *k = user;
-    CHECK_OK(cstk_body_release(k->body));
-    ++k->destroyed;
-}
-
-/* User data may hold objects of the library, and release them when they go. */
-static void destroy_calls_back(const fixture *f) {
-    keeper k = {make_box(1.0, 1.0, 1.0), 0};
-    scene s;
-    wrist unused = {0};
-    cstk_custom_joint joint = good_joint(&unused);
-    joint.pose = keeper_pose;
-    joint.jacobian = no_jacobian;
-    joint.destroy = keeper_destroy;
-    joint.user = &k;
-    scene_create(f, &joint, &s);
-    scene_release(&s);
-    CHECK(k.destroyed == 1);
-    CHECK_FAILS(cstk_body_retain(k.body), CSTK_ERROR_WRONG_HANDLE, "body");
-    fixture_unchanged(f);
-}
-
 int main(void) {
     fixture f;
     fixture_create(&f);
@@ -585,9 +398,6 @@ int main(void) {
     unknown_speeds(&f);
     planar_joint(&f);
     calls_back(&f);
-    destroyed_last(&f);
-    destroyed_once(&f);
-    destroy_calls_back(&f);
     fixture_release(&f);
     return check_result();
 }

@@ -3,6 +3,7 @@
 mod balls_and_solids;
 mod box_pairs;
 mod contacts;
+mod convex_depths;
 mod deep_overlaps;
 mod depth_frames;
 mod depths;

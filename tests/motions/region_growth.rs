@@ -10,7 +10,8 @@ use helpers::robots::{against, environment};
 use helpers::shapes::cuboid;
 
 use crate::random_scenes::scene;
-use crate::regions::{amount, class, sample, slider};
+use crate::regions::{amount, class, sample};
+use crate::regions_in_closed_form::slider;
 
 /// Whatever the limit of work, what was proved until then is answered.
 #[test]
