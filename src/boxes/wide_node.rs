@@ -80,6 +80,9 @@ pub struct EightBoxes<I: Instructions> {
     pub half: Triple<I>,
 }
 
+/// The volume of the cube that three axes span is about 1; below this they are no axes of a box.
+const LEAST_VOLUME: f64 = 0.5;
+
 impl WideNode {
     /// Fits the boxes of up to eight children; the caller sets `children`. Lengths are at most about 1.
     pub fn new(children: &[ChildPoints]) -> Self {
@@ -126,7 +129,7 @@ impl WideNode {
     /// A node without children. Its boxes may have centres within `half` of `center` along each axis, and half sides up to
     /// almost twice `half`.
     pub fn around(center: &Vec3, half: f64) -> Self {
-        let origin = each3(|k| center[k] as f32);
+        let origin = each3!(k => center[k] as f32);
         let off = (0..3).map(|k| (center[k] - f64::from(origin[k])).abs());
         let step = ((half + off.fold(0.0, f64::max)) / MAX_PLACE).max(1e-30) * (1.0 + 1e-6);
         Self {
@@ -148,7 +151,7 @@ impl WideNode {
                 .map(|i| own.axes[i][k].abs() * own.half[i])
                 .sum::<f32>()
         };
-        let [low, high] = [-1.0, 1.0].map(|side| each3(|k| own.center[k] + side * extent(k)));
+        let [low, high] = [-1.0, 1.0].map(|side| each3!(k => own.center[k] + side * extent(k)));
         Extent {
             low: low.map(f64::from).into(),
             high: high.map(f64::from).into(),
@@ -168,7 +171,8 @@ impl WideNode {
         self.children[lane] = self.children[last];
     }
 
-    /// Sets the box of a child; false if it does not fit the step.
+    /// Sets the box of a child; false if it does not fit the step. Axes that are not upright, as files that somebody made up bring
+    /// them, are replaced by the frame's.
     fn set(
         &mut self,
         lane: usize,
@@ -177,6 +181,12 @@ impl WideNode {
         axes: &Mat3,
         center: &Vec3,
     ) -> bool {
+        let upright = Mat3::identity();
+        let axes = if axes.determinant() > LEAST_VOLUME {
+            axes
+        } else {
+            &upright
+        };
         for k in 0..3 {
             for i in 0..2 {
                 let component = (axes[(k, i)] * 32768.0).round();
@@ -189,7 +199,7 @@ impl WideNode {
         let center = Vec3::from(rounded.center.map(f64::from));
         let axes = Mat3::from_columns(&rounded.axes.map(|axis| Vec3::from(axis.map(f64::from))));
         let inverse = axes.try_inverse().expect("the axes are almost upright");
-        let needed = Vec3::from(each3(|i| {
+        let needed = Vec3::from(each3!(i => {
             let farthest = points.iter().fold(0.0, |farthest: f64, p| {
                 let from_center = p - center;
                 let along = axes.column(i).dot(&from_center).abs();
@@ -229,7 +239,7 @@ impl WideNode {
             }
             self.half[i][lane] = half;
         }
-        let size = Vec3::from(each3(|i| {
+        let size = Vec3::from(each3!(i => {
             f64::from(f32::from(self.half[i][lane]) * self.step())
         }));
         self.sizes[lane] = size_code_of(size.norm_squared());
@@ -250,11 +260,12 @@ impl WideNode {
     /// One of the boxes.
     #[inline(always)]
     pub fn get(&self, lane: usize) -> PackedBox {
-        let [a, b] = [0, 1].map(|i: usize| each3(|k| f32::from(self.axes[i][k][lane]) * AXIS_STEP));
+        let [a, b] =
+            [0, 1].map(|i: usize| each3!(k => f32::from(self.axes[i][k][lane]) * AXIS_STEP));
         PackedBox {
             axes: [a, b, cross3(&a, &b)],
-            center: each3(|k| self.center_of(lane, k)),
-            half: each3(|i| f32::from(self.half[i][lane]) * self.step()),
+            center: each3!(k => self.center_of(lane, k)),
+            half: each3!(i => f32::from(self.half[i][lane]) * self.step()),
         }
     }
 
@@ -341,5 +352,20 @@ mod tests {
         }
         assert_eq!(size_code_of(0.0), 0);
         assert_eq!(size_code_of(f64::MAX), 255);
+    }
+
+    /// Axes that no box has: parallel ones, none, no numbers.
+    #[test]
+    fn boxes_hold_their_points_whatever_the_axes() {
+        let points = [[0.1, 0.2, 0.3], [-0.4, 0.0, 0.2], [0.3, -0.3, -0.1]].map(Vec3::from);
+        let parallel = Mat3::from_columns(&[Vec3::x(), Vec3::x(), Vec3::zeros()]);
+        for axes in [parallel, Mat3::zeros(), Mat3::repeat(f64::NAN)] {
+            let mut node = WideNode::around(&Vec3::zeros(), 1.0);
+            assert!(node.set(0, &points, 0.0, &axes, &Vec3::zeros()));
+            let extent = node.extent(0);
+            for point in &points {
+                assert!((0..3).all(|k| extent.low[k] <= point[k] && point[k] <= extent.high[k]));
+            }
+        }
     }
 }

@@ -104,11 +104,27 @@ pub fn with_each<W: Work>(work: impl Fn() -> W) -> Vec<W::Output> {
     found
 }
 
-/// The values of a function for the three axes. Like `array::map`, which is not always inlined.
-#[inline(always)]
-pub fn each3<T>(f: impl Fn(usize) -> T) -> [T; 3] {
-    [f(0), f(1), f(2)]
+/// The values of an expression for the three axes, `each3!(k => ...)`. A macro, because closures and `array::map` are not always
+/// inlined: what uses instructions of the processor is then compiled without them, each as a call.
+macro_rules! each3 {
+    ($k:ident => $value:expr) => {
+        [
+            {
+                let $k = 0usize;
+                $value
+            },
+            {
+                let $k = 1usize;
+                $value
+            },
+            {
+                let $k = 2usize;
+                $value
+            },
+        ]
+    };
 }
+pub(crate) use each3;
 
 /// The cross product in single precision.
 #[inline(always)]

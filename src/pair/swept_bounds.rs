@@ -105,98 +105,90 @@ fn gaps_along_axes<I: Instructions>(
     sweep: BoxSweep,
     wanted: GapsWanted,
 ) -> SweptGaps<I> {
-    let BoxSweep {
-        twists,
-        extension,
-        bends,
-    } = sweep;
-    let center = &eight.center;
+    let extension = sweep.extension;
     let apart = apart(lanes, eight, &one.center);
-    let half = splat(lanes, &one.half);
-    let axes = &eight.axes;
-    let [first, second, third] = &one.axes;
-    let products: [Triple<I>; 3] = [
-        [
-            lanes.along(&axes[0], first),
-            lanes.along(&axes[0], second),
-            lanes.along(&axes[0], third),
-        ],
-        [
-            lanes.along(&axes[1], first),
-            lanes.along(&axes[1], second),
-            lanes.along(&axes[1], third),
-        ],
-        [
-            lanes.along(&axes[2], first),
-            lanes.along(&axes[2], second),
-            lanes.along(&axes[2], third),
-        ],
-    ];
+    // By the axes of the eight, then of the one.
+    let products: [Triple<I>; 3] =
+        each3!(k => each3!(j => lanes.along(&eight.axes[k], &one.axes[j])));
     let mut gaps = SweptGaps {
         still: lanes.splat(f32::NEG_INFINITY),
         swept: lanes.splat(f32::NEG_INFINITY),
     };
-    let places_of_eight = [
-        lanes.dot(&axes[0], &apart),
-        lanes.dot(&axes[1], &apart),
-        lanes.dot(&axes[2], &apart),
-    ];
-    let mut of_one = [lanes.splat(bends[0]); 3];
-    for twist in twists {
-        let (velocity, sides) = twist.of_box(one);
-        for k in 0..3 {
-            let shift = lanes.along(&axes[k], &velocity);
-            let nearer = nearer(lanes, shift, places_of_eight[k], extension);
-            of_one[k] = lanes.add(nearer, of_one[k]);
-            for side in &sides {
-                of_one[k] = lanes.add(of_one[k], lanes.abs(lanes.along(&axes[k], side)));
-            }
-        }
-    }
+    let places = each3!(k => lanes.dot(&eight.axes[k], &apart));
+    let moved = moved_along_eight(lanes, eight, one, sweep, &places);
+    let half = splat(lanes, &one.half);
     for k in 0..3 {
-        let gap = lanes.sub(
-            lanes.abs(places_of_eight[k]),
-            extent_along(lanes, &products[k], &half, eight.half[k]),
-        );
-        gaps.offer(lanes, gap, of_one[k], extension);
+        let extent = extent_along(lanes, &products[k], &half, eight.half[k]);
+        let gap = lanes.sub(lanes.abs(places[k]), extent);
+        gaps.offer(lanes, gap, moved[k], extension);
     }
     let upright = lanes.splat(AXIS_FACTOR);
     let GapsWanted { cutoff, among } = wanted;
     if lanes.not_above(lanes.mul(gaps.swept, upright), cutoff) & among != 0 {
-        let places_of_one = [
-            lanes.along(&apart, first),
-            lanes.along(&apart, second),
-            lanes.along(&apart, third),
-        ];
-        let mut of_eight = [lanes.splat(bends[1]); 3];
-        for twist in twists {
-            for (j, axis) in one.axes.iter().enumerate() {
-                let arm = cross3(axis, &twist.angular);
-                let [ax, ay, az] = splat(lanes, &arm);
-                let origin = lanes.splat(dot(axis, &twist.linear));
-                let first = lanes.mul_add(center[0], ax, origin);
-                let at_center = lanes.mul_add(center[2], az, lanes.mul_add(center[1], ay, first));
-                let nearer = nearer(lanes, at_center, places_of_one[j], extension);
-                let moved = lanes.add(nearer, of_eight[j]);
-                let turned = [
-                    lanes.along(&axes[0], &arm),
-                    lanes.along(&axes[1], &arm),
-                    lanes.along(&axes[2], &arm),
-                ];
-                of_eight[j] = extent_along(lanes, &turned, &eight.half, moved);
-            }
-        }
+        let places = each3!(j => lanes.along(&apart, &one.axes[j]));
+        let moved = moved_along_one(lanes, eight, one, sweep, &places);
         for j in 0..3 {
-            let along = [products[0][j], products[1][j], products[2][j]];
+            let along = each3!(k => products[k][j]);
             let extent = extent_along(lanes, &along, &eight.half, lanes.splat(one.half[j]));
-            let gap = lanes.sub(lanes.abs(places_of_one[j]), extent);
-            gaps.offer(lanes, gap, of_eight[j], extension);
+            let gap = lanes.sub(lanes.abs(places[j]), extent);
+            gaps.offer(lanes, gap, moved[j], extension);
         }
     }
     SweptGaps {
         still: lanes.mul(gaps.still, upright),
         swept: lanes.mul(gaps.swept, upright),
     }
+}
+
+/// What the motion takes off the gaps along the axes of the eight; `places` are those of the one along them.
+#[inline(always)]
+fn moved_along_eight<I: Instructions>(
+    lanes: I,
+    eight: &EightBoxes<I>,
+    one: &PackedBox,
+    sweep: BoxSweep,
+    places: &Triple<I>,
+) -> Triple<I> {
+    let mut moved = [lanes.splat(sweep.bends[0]); 3];
+    for twist in sweep.twists {
+        let (velocity, sides) = twist.of_box(one);
+        for k in 0..3 {
+            let shift = lanes.along(&eight.axes[k], &velocity);
+            let nearer = nearer(lanes, shift, places[k], sweep.extension);
+            moved[k] = lanes.add(nearer, moved[k]);
+            for side in &sides {
+                moved[k] = lanes.add(moved[k], lanes.abs(lanes.along(&eight.axes[k], side)));
+            }
+        }
+    }
+    moved
+}
+
+/// The same along the axes of the one, which move with it.
+#[inline(always)]
+fn moved_along_one<I: Instructions>(
+    lanes: I,
+    eight: &EightBoxes<I>,
+    one: &PackedBox,
+    sweep: BoxSweep,
+    places: &Triple<I>,
+) -> Triple<I> {
+    let mut moved = [lanes.splat(sweep.bends[1]); 3];
+    for twist in sweep.twists {
+        for (j, axis) in one.axes.iter().enumerate() {
+            let arm = cross3(axis, &twist.angular);
+            let [ax, ay, az] = splat(lanes, &arm);
+            let center = &eight.center;
+            let origin = lanes.splat(dot(axis, &twist.linear));
+            let first = lanes.mul_add(center[0], ax, origin);
+            let at_center = lanes.mul_add(center[2], az, lanes.mul_add(center[1], ay, first));
+            let nearer = nearer(lanes, at_center, places[j], sweep.extension);
+            let shifted = lanes.add(nearer, moved[j]);
+            let turned = each3!(k => lanes.along(&eight.axes[k], &arm));
+            moved[j] = extent_along(lanes, &turned, &eight.half, shifted);
+        }
+    }
+    moved
 }
 
 /// The same with the diagonals too, where they may part boxes that the axes do not.
@@ -227,11 +219,11 @@ impl Twist32 {
     #[inline(always)]
     fn of_box(&self, one: &PackedBox) -> ([f32; 3], [[f32; 3]; 3]) {
         let turn = cross3(&self.angular, &one.center);
-        let sides = each3(|j| {
+        let sides = each3!(j => {
             let turned = cross3(&self.angular, &one.axes[j]);
-            each3(|k| turned[k] * one.half[j])
+            each3!(k => turned[k] * one.half[j])
         });
-        (each3(|k| self.linear[k] + turn[k]), sides)
+        (each3!(k => self.linear[k] + turn[k]), sides)
     }
 }
 
@@ -290,8 +282,8 @@ impl<I: Instructions> SweptGaps<I> {
                 moved = lanes.add(moved, lanes.abs(lanes.along(way, side)));
             }
         }
-        let with_one = each3(|j| lanes.along(way, &one.axes[j]));
-        let with_eight = each3(|k| lanes.dot(way, &eight.axes[k]));
+        let with_one = each3!(j => lanes.along(way, &one.axes[j]));
+        let with_eight = each3!(k => lanes.dot(way, &eight.axes[k]));
         let half = splat(lanes, &one.half);
         let of_one = extent_along(lanes, &with_one, &half, lanes.splat(0.0));
         let extents = extent_along(lanes, &with_eight, &eight.half, of_one);
