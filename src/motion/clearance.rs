@@ -4,6 +4,7 @@
 use super::linear_motion::LinearMotion;
 use super::motion::{MotionOptions, MotionOutcome, checked_difference};
 use super::set_tree::SetTree;
+use super::valley::{Height, Valley};
 use super::way::Way;
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result, require_finite};
@@ -62,6 +63,15 @@ impl ClearanceOptions {
                 cobject.serial()
             ),
         ))
+    }
+
+    /// A threshold a step below the upper bound.
+    fn below(&self, upper: f64, step: f64) -> f64 {
+        match upper - step {
+            below if below.is_finite() => below.max(0.0).min(self.max_distance),
+            _ if self.max_distance.is_finite() => self.max_distance,
+            _ => 0.0,
+        }
     }
 
     /// How far apart the bounds may be.
@@ -222,27 +232,16 @@ impl QueryContext {
         options: &ClearanceOptions,
         bounds: &mut ClearanceBounds,
     ) -> Result<ClearanceOutcome> {
-        for i in 1..=INTERVALS {
-            if bounds.nearest.upper() == 0.0 {
-                break;
-            }
-            let limit = options.max_distance.min(bounds.nearest.upper());
-            let time = i as f64 / INTERVALS as f64;
-            bounds.take(self.sample(way, time, limit)?);
-        }
-        if bounds.nearest.upper().is_finite() {
-            self.descend(way, bounds.nearest.clone(), options, bounds)?;
-        }
-        let is_empty = bounds.nearest.distance.kind == DistanceKind::Empty;
+        self.look_along(way, options, bounds)?;
         let any_contact = MotionOptions {
             any_contact: true,
             ..MotionOptions::default()
         };
-        if bounds.nearest.distance.distance == 0.0
-            && self.has_contact(way, bounds.nearest.time, &any_contact)?
-        {
+        let nearest = &bounds.nearest;
+        if nearest.distance.distance == 0.0 && self.has_contact(way, nearest.time, &any_contact)? {
             return Ok(ClearanceOutcome::Hit);
         }
+        let is_empty = nearest.distance.kind == DistanceKind::Empty;
         // The threshold of a proof that failed without finding a smaller distance: rounding decides there.
         let mut ceiling = f64::INFINITY;
         let mut failures = 0;
@@ -256,21 +255,15 @@ impl QueryContext {
             let longer = allowed * 4f64.powi((failures - MAX_SHORT_STEPS).max(0));
             let half = 0.5 * (upper - bounds.lower());
             let step = STEP * allowed.max(longer.min(half));
-            let mut threshold = match upper - step {
-                below if below.is_finite() => below.max(0.0).min(options.max_distance),
-                _ if options.max_distance.is_finite() => options.max_distance,
-                _ => 0.0,
-            };
+            let mut threshold = options.below(upper, step);
             if threshold >= ceiling {
                 threshold = 0.5 * (bounds.lower() + ceiling);
             }
-            let answer = self.motion_on(
-                way,
-                &MotionOptions {
-                    threshold,
-                    ..any_contact
-                },
-            )?;
+            let at_threshold = MotionOptions {
+                threshold,
+                ..any_contact
+            };
+            let answer = self.motion_on(way, &at_threshold)?;
             match answer.outcome {
                 MotionOutcome::Free if is_empty => {
                     bounds.proved = Some(f64::INFINITY);
@@ -305,7 +298,28 @@ impl QueryContext {
         Ok(ClearanceOutcome::Near)
     }
 
-    /// Goes from a sample down to a place nearer than all around it, by parabolas and golden sections.
+    /// Samples the way, and goes down from the nearest of the samples.
+    fn look_along(
+        &mut self,
+        way: &Way,
+        options: &ClearanceOptions,
+        bounds: &mut ClearanceBounds,
+    ) -> Result<()> {
+        for i in 1..=INTERVALS {
+            if bounds.nearest.upper() == 0.0 {
+                break;
+            }
+            let limit = options.max_distance.min(bounds.nearest.upper());
+            let time = i as f64 / INTERVALS as f64;
+            bounds.take(self.sample(way, time, limit)?);
+        }
+        if bounds.nearest.upper().is_finite() {
+            self.descend(way, bounds.nearest.clone(), options, bounds)?;
+        }
+        Ok(())
+    }
+
+    /// Goes from a sample down to a place nearer than all around it.
     fn descend(
         &mut self,
         way: &Way,
@@ -320,97 +334,31 @@ impl QueryContext {
             Ok(Height { time, upper })
         };
         let width = 0.5 / INTERVALS as f64;
-        let mut lowest = Height {
+        let lowest = Height {
             time: from.time,
             upper: from.upper(),
         };
-        // The samples before and after the lowest; itself at an end of the motion.
-        let mut sides = [lowest; 2];
-        for (side, time) in [(0, lowest.time - width), (1, lowest.time + width)] {
-            sides[side] = height(time.clamp(0.0, 1.0))?;
-        }
+        let before = height((lowest.time - width).clamp(0.0, 1.0))?;
+        let after = height((lowest.time + width).clamp(0.0, 1.0))?;
+        let mut valley = Valley::new(lowest, [before, after]);
         for count in 0..MAX_DESCENT {
-            if lowest.upper == 0.0 {
+            let lowest = valley.lowest.upper;
+            if lowest == 0.0 {
                 break;
             }
-            // Not between its neighbours yet: walk on.
-            if let Some(side) = (0..2).find(|&side| sides[side].upper < lowest.upper) {
-                sides[1 - side] = lowest;
-                lowest = sides[side];
-                let further = lowest.time + (lowest.time - sides[1 - side].time);
-                sides[side] = height(further.clamp(0.0, 1.0))?;
+            if let Some(side) = valley.lower_side() {
+                let time = valley.walk_to(side);
+                valley.set_side(side, height(time)?);
                 continue;
             }
-            let spans = sides.map(|side| (side.time - lowest.time).abs());
-            let rises = sides.map(|side| side.upper - lowest.upper);
-            // By how much a convex function may fall below the lowest on the way to each side.
-            let may_fall = |side: usize| match spans[1 - side] {
-                0.0 => rises[side],
-                other => rises[1 - side] / other * spans[side],
-            };
-            if may_fall(0).max(may_fall(1)) <= 0.25 * options.allowed(lowest.upper) {
+            if valley.may_fall() <= 0.25 * options.allowed(lowest) || valley.is_point() {
                 break;
             }
-            if spans[0] + spans[1] < 1e-12 {
+            let found = height(valley.time_between(count))?;
+            if !valley.take(found) {
                 break;
-            }
-            let is_at_end = spans.contains(&0.0);
-            let time = match parabola_vertex(&lowest, &sides) {
-                _ if is_at_end => {
-                    let side = usize::from(spans[1] > 0.0);
-                    lowest.time + (sides[side].time - lowest.time) * NEAR_END
-                }
-                Some(vertex) if count % 3 != 2 => vertex,
-                _ => {
-                    let side = usize::from(spans[1] > spans[0]);
-                    lowest.time + (sides[side].time - lowest.time) * GOLDEN
-                }
-            };
-            let side = usize::from(time > lowest.time);
-            let found = height(time)?;
-            if found.upper < lowest.upper {
-                sides[1 - side] = lowest;
-                lowest = found;
-            } else if is_at_end {
-                break;
-            } else {
-                sides[side] = found;
             }
         }
         Ok(())
     }
-}
-
-/// The upper bound of the distance at a time.
-#[derive(Clone, Copy)]
-struct Height {
-    time: f64,
-    upper: f64,
-}
-
-/// The part of an interval that a golden section takes off.
-const GOLDEN: f64 = 0.381_966;
-
-/// Where the first or the last time is the nearest, a time so near to it, as a part of the interval, shows whether the distance
-/// rises at once.
-const NEAR_END: f64 = 1.0 / 16.0;
-
-/// The time at which the parabola through three samples is least, if it is between the two sides and not at one of the three.
-fn parabola_vertex(lowest: &Height, sides: &[Height; 2]) -> Option<f64> {
-    let [before, after] = sides.map(|side| (side.time - lowest.time, side.upper - lowest.upper));
-    let denominator = before.1 * after.0 - after.1 * before.0;
-    let numerator = before.1 * after.0 * after.0 - after.1 * before.0 * before.0;
-    let step = 0.5 * numerator / denominator;
-    let room = 0.02 * (after.0 - before.0);
-    let is_inside = step > before.0 + room && step < after.0 - room;
-    if !step.is_finite() || !is_inside {
-        return None;
-    }
-    // A sample too near the lowest would tell nothing.
-    let step = if step.abs() < room {
-        room.copysign(step)
-    } else {
-        step
-    };
-    (step < after.0 && step > before.0).then_some(lowest.time + step)
 }

@@ -45,6 +45,7 @@ mod span;
 mod start_contacts;
 mod stated_motion;
 mod step_limits;
+mod valley;
 mod way;
 
 pub use clearance::{ClearanceOptions, ClearanceOutcome, MotionClearance};

@@ -38,6 +38,92 @@ pub struct PairMotionAnswer {
     pub distance: Option<Distance>,
 }
 
+/// Both bodies on their screws, as the two carriers of a proof.
+struct OnScrews<'a> {
+    bodies: [&'a Body; 2],
+    motions: LinkMotions,
+    threshold: f64,
+}
+
+impl<'a> OnScrews<'a> {
+    fn new(pair: [&PairMotion<'a>; 2], threshold: f64) -> Self {
+        let mut motions = LinkMotions::default();
+        for moving in pair {
+            let [start, end] = moving.poses;
+            let [linear, angular] = screw_between(start, end);
+            motions.push_screw(start, &linear, &angular);
+        }
+        Self {
+            bodies: pair.map(|moving| moving.body),
+            motions,
+            threshold,
+        }
+    }
+
+    fn poses_at(&self, t: f64) -> [Pose; 2] {
+        let mut states = LinkStates::default();
+        states.start(&self.motions, t);
+        [0, 1].map(|body| states.of(&self.motions, body).pose)
+    }
+
+    fn meet_at(&self, t: f64, context: &mut QueryContext) -> Result<bool> {
+        let [a, b] = self.bodies;
+        let [at_a, at_b] = &self.poses_at(t);
+        context.bodies_within((a, at_a), (b, at_b), self.threshold)
+    }
+
+    /// The pair as a proof asks it; `None` where neither moves as the other sees it.
+    fn moving_pair(&self, rates: &mut PairRates) -> Option<MovingPair<'a>> {
+        let first = Carried {
+            body: self.bodies[0],
+            link: 0,
+            pose: None,
+            number: 0,
+        };
+        let second = Carried {
+            body: self.bodies[1],
+            link: Some(1),
+            pose: None,
+            number: 1,
+        };
+        let everywhere = || [f64::INFINITY; 2];
+        MovingPair::new(first, second, self.threshold, 0, rates, everywhere)
+            .filter(|pair| !pair.rests())
+    }
+
+    /// Proves the whole motion, or finds the first contact.
+    fn prove(&self, options: &MotionOptions, context: &mut QueryContext) -> Result<Proof> {
+        let rates = &mut PairRates::new(&self.motions);
+        let pair = self.moving_pair(rates);
+        // What rests is asked once. A body inside another does not meet its surface.
+        let has_solid = pair.as_ref().is_none_or(MovingPair::has_solid);
+        if has_solid && self.meet_at(0.0, context)? {
+            return Ok(Proof::Contact([0.0, 0.0]));
+        }
+        let set = &MovingSet {
+            way: None,
+            tree: &SetTree::of_group(&[]),
+            leaves: vec![MovingLeaf::Pairs { complement: false }],
+            pairs: pair.into_iter().collect(),
+            crowds: Vec::new(),
+        };
+        let limits = &mut ProofLimits {
+            tolerance: options.tolerance,
+            any_contact: options.any_contact,
+            intervals: usize::MAX,
+        };
+        let mut memory: Box<ProofMemory> = context.proof_memory.take();
+        let states = std::mem::take(&mut memory.kinematics);
+        let mut kinematics = Kinematics::new(&self.motions, None, states);
+        let confirm = &mut |context: &mut QueryContext, t: f64| self.meet_at(t, context);
+        let search = &mut memory.search;
+        let proof = prove(set, &mut kinematics, limits, context, confirm, search);
+        memory.kinematics = kinematics.into_memory();
+        context.proof_memory.keep(memory);
+        proof
+    }
+}
+
 impl QueryContext {
     /// Whether two bodies that move keep farther apart than the threshold, in the sense of [`QueryContext::pair_within`]: proved, or
     /// their first contact. A translation is exact: no interval of it is halved for what it bends.
@@ -52,71 +138,14 @@ impl QueryContext {
             check_dimensions((a.body, a.poses[end]), (b.body, b.poses[end]))?;
         }
         self.scratch.meter_mut().start_call();
-        let mut motions = LinkMotions::default();
-        for moving in [a, b] {
-            let [start, end] = moving.poses;
-            let [linear, angular] = screw_between(start, end);
-            motions.push_screw(start, &linear, &angular);
-        }
-        let poses_at = |t: f64| {
-            let mut states = LinkStates::default();
-            states.start(&motions, t);
-            [0, 1].map(|body| states.of(&motions, body).pose)
-        };
-        let meets = |context: &mut Self, t: f64| {
-            let poses = poses_at(t);
-            let [at_a, at_b] = [(a.body, &poses[0]), (b.body, &poses[1])];
-            context.bodies_within(at_a, at_b, options.threshold)
-        };
-        let rates = &mut PairRates::new(&motions);
-        let first = Carried {
-            body: a.body,
-            link: 0,
-            pose: None,
-            number: 0,
-        };
-        let second = Carried {
-            body: b.body,
-            link: Some(1),
-            pose: None,
-            number: 1,
-        };
-        let pair = MovingPair::new(first, second, options.threshold, 0, rates, || {
-            [f64::INFINITY; 2]
-        });
-        let pair = pair.filter(|pair| !pair.rests());
-        // A body inside another does not meet its surface.
-        let has_solid = pair.as_ref().is_none_or(MovingPair::has_solid);
-        let end = if has_solid && meets(self, 0.0)? {
-            Proof::Contact([0.0, 0.0])
-        } else {
-            let set = &MovingSet {
-                way: None,
-                tree: &SetTree::of_group(&[]),
-                leaves: vec![MovingLeaf::Pairs { complement: false }],
-                pairs: pair.into_iter().collect(),
-                crowds: Vec::new(),
-            };
-            let limits = &mut ProofLimits {
-                tolerance: options.tolerance,
-                any_contact: options.any_contact,
-                intervals: usize::MAX,
-            };
-            let mut memory: Box<ProofMemory> = self.proof_memory.take();
-            let states = std::mem::take(&mut memory.kinematics);
-            let mut kinematics = Kinematics::new(&motions, None, states);
-            let confirm = &mut |context: &mut Self, t: f64| meets(context, t);
-            let search = &mut memory.search;
-            let proof = prove(set, &mut kinematics, limits, self, confirm, search);
-            memory.kinematics = kinematics.into_memory();
-            self.proof_memory.keep(memory);
-            proof?
-        };
-        let (outcome, times) = MotionOutcome::of_proof(end, options.tolerance, |t| meets(self, t))?;
+        let screws = OnScrews::new([a, b], options.threshold);
+        let proof = screws.prove(options, self)?;
+        let meets = |t: f64| screws.meet_at(t, self);
+        let (outcome, times) = MotionOutcome::of_proof(proof, options.tolerance, meets)?;
         let poses = if times[1] == 1.0 {
             [*a.poses[1], *b.poses[1]]
         } else {
-            poses_at(times[1])
+            screws.poses_at(times[1])
         };
         let distance = match outcome {
             MotionOutcome::Hit | MotionOutcome::Near if !options.any_contact => {
