@@ -335,10 +335,11 @@ impl Growth<'_> {
             BoxProof::Undecided { at, .. } => (at, SideStop::Unproved),
         };
         // A step to the end may have been shorter than the side's.
-        side.step = (0.5 * side.step).min(0.5 * (to - from).abs() / side.weight);
-        if side.step < self.tolerance {
+        let tried = side.step.min((to - from).abs() / side.weight);
+        if tried <= self.tolerance {
             side.stop = Some(failed.1);
         }
+        side.step = self.tolerance.max(0.5 * tried);
         side.failed = Some(failed);
         Ok(())
     }

@@ -204,9 +204,15 @@ impl QueryContext {
             outcome => outcome?,
         };
         progress(1.0)?;
+        let remaining = walk.remaining();
         Ok(SlidPath {
-            outcome,
-            remaining: walk.remaining(),
+            // However the last step ended.
+            outcome: if remaining <= options.tolerance {
+                SlideToOutcome::Arrived
+            } else {
+                outcome
+            },
+            remaining,
             points: walk.points,
             steps: walk.steps,
             motions: walk.motions,
@@ -245,9 +251,6 @@ impl QueryContext {
             if idle > options.max_idle_steps {
                 return Ok(SlideToOutcome::Idle);
             }
-        }
-        if walk.remaining() <= options.tolerance {
-            return Ok(SlideToOutcome::Arrived);
         }
         Ok(SlideToOutcome::Steps)
     }

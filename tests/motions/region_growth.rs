@@ -1,10 +1,11 @@
 //! Boxes that grow around a configuration: free at every sample, and stopped by what is told.
 
-use cstk::cobject::Class;
+use cstk::cobject::{Class, PureShape};
 use cstk::motion::{GrowthOptions, SideStop};
 use cstk::pose::{Pose, Vec3};
 use cstk::query::QueryContext;
 
+use helpers::pure::pure;
 use helpers::random::Random;
 use helpers::robots::{against, environment};
 use helpers::shapes::cuboid;
@@ -143,4 +144,26 @@ fn a_box_grows_to_the_walls_and_to_the_range() {
             .iter()
             .all(|side| side.stop == SideStop::MaxSide)
     );
+}
+
+/// Wherever a wall is, a side that it stops has no more room than the tolerance.
+#[test]
+fn sides_stop_within_the_tolerance_of_contact() {
+    let space = slider();
+    let context = &mut QueryContext::new();
+    let options = GrowthOptions::default();
+    for i in 0..1000 {
+        let wall = 0.5 + 0.003 * f64::from(i);
+        let beyond = PureShape::HalfSpace {
+            normal: vec![-1.0],
+            offset: -wall,
+            is_open: false,
+        };
+        let set = pure(&space, beyond, None);
+        let grown = context.grow_region(&set, &[0.0], None, &options).unwrap();
+        if grown.sides[1].stop == SideStop::Contact {
+            let room = wall - grown.high[0];
+            assert!(room <= options.tolerance * (1.0 + 1e-9), "{wall}: {room}");
+        }
+    }
 }

@@ -104,6 +104,31 @@ fn a_number_of_steps_ends_it() {
     }
 }
 
+/// A step that gains too little, but ends within the tolerance.
+#[test]
+fn whoever_is_near_enough_has_arrived() {
+    let discs = Discs::new(&[[0.0, 0.0, 0.5]]);
+    let (start, goal) = ([-2.0, 0.3], [2.0, 0.0]);
+    for steps in 1..12 {
+        let few = SlideToOptions {
+            steps_between_motions: 1000,
+            max_steps: steps,
+            ..options()
+        };
+        let short = slide_to(&discs.cell, &start, &goal, &few);
+        let impatient = SlideToOptions {
+            tolerance: short.remaining * (1.0 + 1e-9),
+            max_steps: 1000,
+            min_gain: 0.999_999,
+            max_idle_steps: 0,
+            ..few
+        };
+        let led = slide_to(&discs.cell, &start, &goal, &impatient);
+        let is_near = led.remaining <= impatient.tolerance;
+        assert_eq!(led.outcome == SlideToOutcome::Arrived, is_near, "{led:?}");
+    }
+}
+
 #[test]
 fn goals_may_be_boxes() {
     let discs = Discs::new(&[[0.0, 0.0, 0.5]]);
