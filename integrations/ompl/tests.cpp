@@ -14,7 +14,9 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -136,12 +138,88 @@ void rrt_connect_finds_a_free_path(const Problem &problem) {
            "the path of " + problem.scene + " is free");
 }
 
+/// A tip that turns about the origin at a distance of 1, in a world that ends before it on one side.
+void motions_stay_in_the_world_box() {
+    cstk::RobotBuilder builder(3);
+    cstk::Link arm;
+    arm.joint = CSTK_JOINT_REVOLUTE;
+    arm.lower = -3;
+    arm.upper = 3;
+    builder.add_link(arm);
+    cstk::Link tip;
+    tip.parent = 0;
+    tip.at = cstk::translation(1, 0, 0);
+    tip.body = cstk::Body::sphere(0.05);
+    builder.add_link(tip);
+    const cstk::Space world({builder.build()}, {}, {-2.0, -2.0, -2.0, 0.9, 2.0, 2.0});
+    const cstk::CObject contact = cstk::CObject::induced(world, cstk::Environment());
+    const auto space = std::make_shared<cstk_ompl::StateSpace>(world);
+    const auto information = std::make_shared<ob::SpaceInformation>(space);
+    information->setStateValidityChecker(std::make_shared<cstk_ompl::ValidityChecker>(information, contact));
+    information->setMotionValidator(std::make_shared<cstk_ompl::MotionValidator>(information, contact));
+    information->setup();
+    space->sanityChecks();
+    ob::ScopedState<> from(information), to(information);
+    std::size_t valid = 0;
+    for (int i = 0; i <= 40; ++i) {
+        for (int k = 0; k <= 40; ++k) {
+            const double ends[2] = {-3 + 0.15 * i, -3 + 0.15 * k};
+            space->set(from.get(), {ends[0]});
+            space->set(to.get(), {ends[1]});
+            // The tip is beyond the box where its angle is less than acos 0.9 to either side.
+            const double least = ends[0] * ends[1] <= 0 ? 0 : std::min(std::abs(ends[0]), std::abs(ends[1]));
+            const bool is_free = std::cos(least) < 0.9;
+            expect(information->isValid(to.get()) == (std::cos(ends[1]) < 0.9), "states are valid within the world box");
+            if (information->isValid(from.get())) {
+                expect(information->checkMotion(from.get(), to.get()) == is_free, "valid motions stay in the world box");
+                valid += is_free;
+            }
+        }
+    }
+    expect(valid > 0, "there are valid motions");
+}
+
+/// A body that flies: between two rotations its way is a screw, longer than the straight one.
+void the_extent_bounds_screws() {
+    cstk::RobotBuilder builder(3);
+    cstk::Link link;
+    link.joint = CSTK_JOINT_FREE;
+    link.body = cstk::Body::sphere(0.1);
+    builder.add_link(link);
+    const cstk::Robot robot = builder.build();
+    std::vector<cstk_range> ranges(cstk::Space({robot}).nq(), cstk::default_range());
+    std::fill_n(ranges.begin(), 3, cstk::interval(-1, 1));
+    cstk_ompl::StateSpace space(cstk::Space({robot}, ranges), false);
+    space.setup();
+    ob::StateSpacePtr shared(&space, [](ob::StateSpace *) {});
+    ob::ScopedState<> a(shared), b(shared);
+    const ob::StateSamplerPtr sampler = space.allocStateSampler();
+    for (std::size_t i = 0; i < 20 * motions; ++i) {
+        sampler->sampleUniform(a.get());
+        sampler->sampleUniform(b.get());
+        // Opposite corners too.
+        if (i % 2 == 0) {
+            const double *q = a->as<cstk_ompl::StateSpace::StateType>()->values;
+            std::vector<double> ends(q, q + space.space().nq());
+            std::fill_n(ends.begin(), 3, -1.0);
+            space.set(a.get(), ends);
+            q = b->as<cstk_ompl::StateSpace::StateType>()->values;
+            ends.assign(q, q + space.space().nq());
+            std::fill_n(ends.begin(), 3, 1.0);
+            space.set(b.get(), ends);
+        }
+        expect(space.distance(a.get(), b.get()) <= space.getMaximumExtent() * (1 + 1e-12), "the extent bounds screws");
+    }
+}
+
 } // namespace
 
 int main(int count, char **arguments) {
     try {
         ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
         ompl::RNG::setSeed(3);
+        motions_stay_in_the_world_box();
+        the_extent_bounds_screws();
         for (const Problem &problem : problems::built_in(count > 1 ? arguments[1] : "")) {
             the_state_space_keeps_what_ompl_asks_of_one(problem);
             motions_are_as_their_samples_say(problem);

@@ -12,13 +12,14 @@
 
 namespace cstk_ompl {
 
-/// A motion is valid if cstk_motion proves it free of the set `contact`, and its last state is valid for the space's
-/// StateValidityChecker, which may know of more than contacts. As OMPL has it, the first state of a motion is valid, and the limits
-/// are an interval each, which a motion between two states does not leave.
+/// A motion is valid if cstk_motion proves it free of the set `contact` and of places beyond the world box, and its last state is valid
+/// for the space's StateValidityChecker, which may know of more than contacts. As OMPL has it, the first state of a motion is valid, and
+/// the limits are an interval each, which a motion between two states does not leave.
 class MotionValidator : public ompl::base::MotionValidator {
   public:
     MotionValidator(const ompl::base::SpaceInformationPtr &information, const cstk::CObject &contact)
-        : ompl::base::MotionValidator(information), space_(*information->getStateSpace()->as<StateSpace>()), contact_(contact) {}
+        : ompl::base::MotionValidator(information), space_(*information->getStateSpace()->as<StateSpace>()),
+          kept_out_of_(space_.with_world(contact)) {}
 
     bool checkMotion(const ompl::base::State *from, const ompl::base::State *to) const override {
         cstk_motion_options any = cstk::motion_options();
@@ -47,7 +48,7 @@ class MotionValidator : public ompl::base::MotionValidator {
   private:
     cstk_motion_result ask(const ompl::base::State *from, const ompl::base::State *to,
                            const cstk_motion_options &options) const {
-        return thread_query().motion(contact_, space_.configuration(from), space_.configuration(to), options);
+        return thread_query().motion(kept_out_of_, space_.configuration(from), space_.configuration(to), options);
     }
 
     /// OMPL's benchmarks tell how many motions were valid.
@@ -57,7 +58,7 @@ class MotionValidator : public ompl::base::MotionValidator {
     }
 
     const StateSpace &space_;
-    cstk::CObject contact_;
+    cstk::CObject kept_out_of_;
 };
 
 } // namespace cstk_ompl

@@ -20,6 +20,9 @@ namespace cstk_ompl {
 /// States are configurations: `values` holds the space's nq coordinates. Distances, interpolation, samples and limits are those of
 /// the cstk_space, so that circles and rotations are what they are, whatever the robot's joints. Every coordinate needs a bounded
 /// range; the constructor throws cstk::Error where one has none.
+///
+/// The bounds of OMPL are the ranges of coordinates. A world box is none of them, since states drawn within the ranges may leave it: it
+/// is an obstacle, which ValidityChecker and MotionValidator add to the set that they are given.
 class StateSpace : public ompl::base::RealVectorStateSpace {
   public:
     /// `is_metric` is false for robots with free joints: see cstk_space_distance.
@@ -29,6 +32,7 @@ class StateSpace : public ompl::base::RealVectorStateSpace {
         std::uint64_t random = 0;
         static_cast<void>(space.sample(random));
         setName("cstk" + getName());
+        bool has_rotation = false;
         for (unsigned int i = 0; i < space.nq(); ++i) {
             const cstk_range range = space.range(i);
             if (range.kind == CSTK_RANGE_INTERVAL) {
@@ -44,7 +48,12 @@ class StateSpace : public ompl::base::RealVectorStateSpace {
                 bounds_.setLow(i, -1);
                 bounds_.setHigh(i, 1);
                 square_extent_ += pi * pi / 4;
+                has_rotation = true;
             }
+        }
+        if (has_rotation) {
+            // Free joints go on screws: turned by up to pi, the way is up to pi / 2 times as long as the straight one.
+            square_extent_ *= pi * pi / 4;
         }
     }
 
@@ -78,7 +87,15 @@ class StateSpace : public ompl::base::RealVectorStateSpace {
     }
 
     bool satisfiesBounds(const ompl::base::State *state) const override {
-        return space_.contains(configuration(state)) && space_.within_limits(configuration(state));
+        return space_.within_limits(configuration(state));
+    }
+
+    /// What to keep out of: the set, and all configurations with a link beyond the world box, if the space has one.
+    cstk::CObject with_world(const cstk::CObject &contact) const {
+        const cstk::CObject beyond = cstk::CObject::beyond_world(space_);
+        std::uint64_t random = 0;
+        const bool is_everywhere = cstk::Query().distance(beyond, space_.sample(random)).kind == CSTK_DISTANCE_EMPTY;
+        return is_everywhere ? contact : cstk::CObject::union_of({contact, beyond});
     }
 
     void enforceBounds(ompl::base::State *state) const override {

@@ -9,20 +9,21 @@
 
 namespace cstk_ompl {
 
-/// States outside of the set `contact` and within the limits are valid. Of a StateSpace.
+/// States outside of the set `contact`, within the limits and within the world box are valid. Of a StateSpace.
 class ValidityChecker : public ompl::base::StateValidityChecker {
   public:
     ValidityChecker(const ompl::base::SpaceInformationPtr &information, const cstk::CObject &contact)
-        : StateValidityChecker(information), space_(*information->getStateSpace()->as<StateSpace>()), contact_(contact) {
+        : StateValidityChecker(information), space_(*information->getStateSpace()->as<StateSpace>()), contact_(contact),
+          kept_out_of_(space_.with_world(contact)) {
         specs_.clearanceComputationType = ompl::base::StateValidityCheckerSpecs::EXACT;
     }
 
     bool isValid(const ompl::base::State *state) const override {
         return space_.satisfiesBounds(state) &&
-               thread_query().classify(contact_, space_.configuration(state)) != CSTK_CLASS_INSIDE;
+               thread_query().classify(kept_out_of_, space_.configuration(state)) != CSTK_CLASS_INSIDE;
     }
 
-    /// The distance from contact; 0 inside.
+    /// The distance from contact; 0 inside. The world box is not counted.
     double clearance(const ompl::base::State *state) const override {
         return thread_query().distance(contact_, space_.configuration(state)).distance;
     }
@@ -35,6 +36,7 @@ class ValidityChecker : public ompl::base::StateValidityChecker {
   private:
     const StateSpace &space_;
     cstk::CObject contact_;
+    cstk::CObject kept_out_of_;
 };
 
 } // namespace cstk_ompl
