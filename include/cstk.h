@@ -931,7 +931,8 @@ cstk_status cstk_body_builder_add_height_field(cstk_body_builder *builder,
  * must not throw, and must not call back into the running query. It is tested here along the axes and 300 other
  * directions: CSTK_ERROR_CALLBACK_FAILED if it fails, CSTK_ERROR_NOT_FINITE if it writes numbers that are not finite, or
  * none, CSTK_ERROR_NOT_CONVEX if two points contradict each other. A later failure does not fail the query: the set then
- * counts as the bounding box found here, so that an answer of "free" stays safe.
+ * counts as the bounding box found here. So an answer of "free" of the set stays safe; what is larger for the box is not: upper bounds of
+ * distances, depths, and "free" of the set's complement.
  *
  * `destroy` may be NULL. It is called once with `user`, by the thread that drops the last reference to whatever uses the
  * function, and not if this call fails. Such a body cannot be saved.
@@ -6567,7 +6568,8 @@ cstk_status cstk_map_save(const cstk_map *map,
  * distance of 0 is black, the largest that is finite, and what is infinite, white. The picture is not compressed: a byte a cell.
  *
  * Of three axes (.glb, a glTF file), the boundary of the cells that are inside, at distance 0, or not proved free, in the coordinates of
- * the axes as x, y and z. It is closed: beyond the map nothing is inside.
+ * the axes as x, y and z. It is closed: beyond the map nothing is inside. The surface goes between the middles of unlike cells and
+ * rounds edges and corners off, so that it may be nearer than the cells' own boundary, by half a cell at most: it is to be looked at.
  *
  * The file is written whole or not at all; CSTK_ERROR_IO if that fails, CSTK_ERROR_UNSUPPORTED for maps with another number of axes, for
  * another ending than .glb of a map with three, and for a boundary of more than 29 million faces: each takes 144 bytes, and a .glb file

@@ -125,8 +125,10 @@ def test_progress_hears_and_ends(arm):
     heard = []
     cstk.Map.build(arm.cobject, [0, 0], AXES, progress=heard.append)
     assert heard and heard == sorted(heard)
-    with pytest.raises(cstk.CancelledError):
-        cstk.Map.build(arm.cobject, [0, 0], AXES, progress=lambda part: False)
+    for no in (False, np.False_):
+        with pytest.raises(cstk.CancelledError):
+            cstk.Map.build(arm.cobject, [0, 0], AXES, progress=lambda part: no)
+    cstk.Map.build(arm.cobject, [0, 0], AXES, progress=lambda part: 0)
     with pytest.raises(ZeroDivisionError):
         cstk.Map.build(arm.cobject, [0, 0], AXES, progress=lambda part: 1 / 0)
 

@@ -258,7 +258,8 @@ pub unsafe extern "C" fn cstk_map_save(map: *const cstk_map, file: *const c_char
 /// distance of 0 is black, the largest that is finite, and what is infinite, white. The picture is not compressed: a byte a cell.
 ///
 /// Of three axes (.glb, a glTF file), the boundary of the cells that are inside, at distance 0, or not proved free, in the coordinates of
-/// the axes as x, y and z. It is closed: beyond the map nothing is inside.
+/// the axes as x, y and z. It is closed: beyond the map nothing is inside. The surface goes between the middles of unlike cells and
+/// rounds edges and corners off, so that it may be nearer than the cells' own boundary, by half a cell at most: it is to be looked at.
 ///
 /// The file is written whole or not at all; CSTK_ERROR_IO if that fails, CSTK_ERROR_UNSUPPORTED for maps with another number of axes, for
 /// another ending than .glb of a map with three, and for a boundary of more than 29 million faces: each takes 144 bytes, and a .glb file

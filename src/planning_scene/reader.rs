@@ -81,6 +81,10 @@ pub fn read_scene_text(text: &str, options: &SceneOptions) -> Result<Vec<SceneOb
             }
         }
         let name = reader.words.rest_of_line();
+        if name.contains('\0') {
+            let message = "the object's name holds a NUL";
+            return Err(reader.words.fault(ErrorKind::Parse, message));
+        }
         if !names.insert(name) {
             let message = format!("another object is called \"{name}\"");
             return Err(reader.words.fault(ErrorKind::InvalidArgument, message));

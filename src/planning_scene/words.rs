@@ -70,9 +70,9 @@ impl<'a> Words<'a> {
                     format!("\"{word}\" is no number: {what} should stand here"),
                 )
             })?;
+            require_coordinates(&[*number], "number")
+                .map_err(|e| self.fault(e.kind, format!("{what}: {}", e.message)))?;
         }
-        require_coordinates(&numbers, "number")
-            .map_err(|e| self.fault(e.kind, format!("{what}: {}", e.message)))?;
         Ok(numbers)
     }
 

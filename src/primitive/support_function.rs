@@ -16,7 +16,8 @@ pub trait SupportFunction: Send + Sync {
 /// A support function whose results are clamped to the box that they spanned at construction.
 ///
 /// A query cannot return an error of the set's: if the function fails during a query, or returns a point that is not finite,
-/// the box's corner is used instead. The set then counts as larger than it is, so that free stays a safe answer.
+/// the box's corner is used instead. The set then counts as larger than it is, so that free of the set stays a safe answer; free of its
+/// complement does not.
 #[derive(Clone)]
 pub struct WatchedSupport {
     function: Arc<dyn SupportFunction>,

@@ -112,6 +112,12 @@ fn faults_are_named_with_line_and_object() {
         ),
         (object("box\n1 nan 1\n"), NotFinite, vec!["line 5", "sizes"]),
         (
+            object("box\n1 nan\n1\n"),
+            NotFinite,
+            vec!["line 5", "sizes"],
+        ),
+        ("s\n* a\0b\n0\n.".into(), Parse, vec!["line 2", "NUL"]),
+        (
             object("box\n1 1e99 1\n"),
             InvalidArgument,
             vec!["line 5", "too large"],

@@ -38,8 +38,9 @@ def as_in_c(array: NDArray[Any]) -> NDArray[Any]:
 
 
 def _not_masked(name: str, value: Any) -> None:
-    """Refuses arrays with a mask, which the library would not see."""
-    if isinstance(value, np.ma.MaskedArray):
+    """Refuses arrays with a mask, which the library would not see, and lists of them."""
+    of_rows = isinstance(value, (list, tuple)) and len(value) > 0 and hasattr(value[0], "__len__")
+    if isinstance(value, np.ma.MaskedArray) or (of_rows and any(isinstance(row, np.ma.MaskedArray) for row in value)):
         raise TypeError(f"{name} is a masked array; fill it, or leave out what is masked")
 
 
@@ -78,6 +79,8 @@ def scalar(name: str, value: Any) -> float:
         return float(numbers(name, value)) if not isinstance(value, int) else float(value)
     except TypeError:
         raise TypeError(f"{name} must be a number, not {type(value).__name__}") from None
+    except OverflowError:
+        raise InvalidArgumentError(f"{name} is too large for a double") from None
 
 
 def poses(name: str, value: ArrayLike) -> Doubles:

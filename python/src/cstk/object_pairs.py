@@ -66,7 +66,7 @@ def _asking(call: Callable[[Any], int], filter: Optional[Filter], with_distances
     if filter is not None and not callable(filter):
         raise TypeError(f"filter must be a function, not {type(filter).__name__}")
     kept = Kept(filter)
-    given = options("object_pair_options", with_distances=int(with_distances))
+    given = options("object_pair_options", with_distances=int(bool(with_distances)))
     if filter is not None:
         given.filter = _admit
         given.user = kept.pointer

@@ -296,6 +296,8 @@ class RobotBuilder(Handle):
         -1 for the next unused ones: a revolute or prismatic joint may share an earlier one and so mimic it, moving by
         multiplier * coordinate + offset. Without limits a revolute joint turns on a circle.
         """
+        if custom is not None and not isinstance(custom, CustomJoint):
+            raise TypeError(f"custom must be a CustomJoint, not {type(custom).__name__}")
         with Kept(custom) as kept:
             names = [ffi.NULL if n is None else ffi.new("char[]", text(k, n)) for k, n in _named(name, joint_name)]
             moved = ffi.NULL if custom is None else custom.structure(kept)

@@ -244,7 +244,8 @@ pub unsafe extern "C" fn cstk_body_builder_add_height_field(
 /// must not throw, and must not call back into the running query. It is tested here along the axes and 300 other
 /// directions: CSTK_ERROR_CALLBACK_FAILED if it fails, CSTK_ERROR_NOT_FINITE if it writes numbers that are not finite, or
 /// none, CSTK_ERROR_NOT_CONVEX if two points contradict each other. A later failure does not fail the query: the set then
-/// counts as the bounding box found here, so that an answer of "free" stays safe.
+/// counts as the bounding box found here. So an answer of "free" of the set stays safe; what is larger for the box is not: upper bounds of
+/// distances, depths, and "free" of the set's complement.
 ///
 /// `destroy` may be NULL. It is called once with `user`, by the thread that drops the last reference to whatever uses the
 /// function, and not if this call fails. Such a body cannot be saved.
