@@ -69,9 +69,9 @@ impl FourSpans {
     pub fn set_triangles(&mut self, corners: &[Points64; 3], normal: &Points64) -> [bool; 4] {
         let longest = longest_edge(corners);
         let lift = dot64(normal, &longest);
-        let along: Points64 = each3!(k => longest[k] - normal[k] * lift);
+        let along: Points64 = each3(|k| longest[k] - normal[k] * lift);
         let length = dot64(&along, &along).sqrt();
-        let along = each3!(k => along[k].zip(length, |a, length| a / length));
+        let along = each3(|k| along[k].zip(length, |a, length| a / length));
         self.set_axes(&along, &cross64(normal, &along));
         let [a, b, c] = corners;
         for i in 0..3 {
@@ -91,19 +91,16 @@ impl FourSpans {
     fn set_axes(&mut self, first: &Points64, second: &Points64) {
         let (least, most) = (F64x4::splat(-MAX_AXIS), F64x4::splat(MAX_AXIS));
         let number = |x: F64x4| (x * 32768.0).max(least).min(most).nearest_integers();
-        self.numbers = [
-            each3!(k => number(first[k])),
-            each3!(k => number(second[k])),
-        ];
+        self.numbers = [each3(|k| number(first[k])), each3(|k| number(second[k]))];
         // In single precision, as the node computes them.
         let axis = |i: usize, k: usize| each4(|lane| self.numbers[i][k][lane] as f32 * AXIS_STEP);
-        let (a, b) = (each3!(k => axis(0, k)), each3!(k => axis(1, k)));
+        let (a, b) = (each3(|k| axis(0, k)), each3(|k| axis(1, k)));
         let cross =
             |i: usize, j: usize| each4(|lane| a[i][lane] * b[j][lane] - a[j][lane] * b[i][lane]);
         let double = |x: [f32; 4]| F64x4(each4(|lane| f64::from(x[lane])));
         self.axes = [
-            each3!(k => double(a[k])),
-            each3!(k => double(b[k])),
+            each3(|k| double(a[k])),
+            each3(|k| double(b[k])),
             [
                 double(cross(1, 2)),
                 double(cross(2, 0)),
@@ -116,30 +113,30 @@ impl FourSpans {
     #[inline(always)]
     fn points(&self, along: &Points64) -> Points64 {
         let [x, y, z] = &self.axes;
-        each3!(k => x[k] * along[0] + y[k] * along[1] + z[k] * along[2])
+        each3(|k| x[k] * along[0] + y[k] * along[1] + z[k] * along[2])
     }
 
     /// The coordinates of points along the axes.
     #[inline(always)]
     fn places(&self, points: &Points64) -> Points64 {
-        each3!(i => dot64(&self.axes[i], points))
+        each3(|i| dot64(&self.axes[i], points))
     }
 
     /// The centres of the boxes between the planes: the points with the middle coordinate along each axis.
     #[inline(always)]
     fn centers(&self) -> Points64 {
-        let middle = each3!(i => (self.low[i] + self.high[i]) * 0.5);
+        let middle = each3(|i| (self.low[i] + self.high[i]) * 0.5);
         let near = self.points(&middle);
         // One step of Newton's method for axes that are orthonormal but for rounding.
         let off = self.points(&sub64(&middle, &self.places(&near)));
-        each3!(k => near[k] + off[k])
+        each3(|k| near[k] + off[k])
     }
 
     /// Half sides that bound the sets in both senses of [`PackedBox`](super::PackedBox) around other centres.
     #[inline(always)]
     fn halves_around(&self, centers: &Points64) -> Points64 {
         let place = self.places(centers);
-        let along = each3!(i => (self.high[i] - place[i]).max(place[i] - self.low[i]));
+        let along = each3(|i| (self.high[i] - place[i]).max(place[i] - self.low[i]));
         let [x, y, z] = &self.axes;
         // A point at coordinates s along the axes is the centre plus sum t_i axis_i, where s = (axes^T axes) t.
         let (xx, xy, yy) = (dot64(x, x), dot64(x, y), dot64(y, y));
@@ -151,7 +148,7 @@ impl FourSpans {
             over(along[2], dot64(z, z)),
         ];
         let slack = (along[0] + along[1] + along[2]) * AXIS_ROUNDING;
-        each3!(i => along[i].max(parts[i]) + slack)
+        each3(|i| along[i].max(parts[i]) + slack)
     }
 }
 
@@ -208,9 +205,9 @@ impl WideNode {
                 longest = longest.max((four.high[k] - four.low[k]) * 0.5);
             }
         }
-        let (low, high) = (each3!(k => low[k].least()), each3!(k => high[k].greatest()));
-        let [x, y, z] = each3!(k => (low[k] + high[k]) * 0.5);
-        let spread = each3!(k => high[k] - low[k]);
+        let (low, high) = (each3(|k| low[k].least()), each3(|k| high[k].greatest()));
+        let [x, y, z] = each3(|k| (low[k] + high[k]) * 0.5);
+        let spread = each3(|k| high[k] - low[k]);
         let spread = spread[0].max(spread[1]).max(spread[2]);
         let mut step = (0.5 * spread / MAX_PLACE)
             .max(longest.greatest() / MAX_HALF)

@@ -21,7 +21,7 @@ impl StoredAxes {
     #[inline(always)]
     pub fn rounded(first: &Vec3, second: &Vec3) -> Self {
         let numbers = [first, second].map(|axis| {
-            each3!(k => {
+            each3(|k| {
                 // The nearest whole number.
                 let component = (axis[k] * 32768.0).clamp(-MAX_AXIS, MAX_AXIS);
                 (component + 0.5f64.copysign(component)) as i16
@@ -33,7 +33,7 @@ impl StoredAxes {
     /// The axes of a box of a node, as they are.
     #[inline(always)]
     pub fn of(node: &WideNode, lane: usize) -> Self {
-        Self::of_numbers([0, 1].map(|i: usize| each3!(k => node.axes[i][k][lane])))
+        Self::of_numbers([0, 1].map(|i: usize| each3(|k| node.axes[i][k][lane])))
     }
 
     #[inline(always)]

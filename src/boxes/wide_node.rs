@@ -129,7 +129,7 @@ impl WideNode {
     /// A node without children. Its boxes may have centres within `half` of `center` along each axis, and half sides up to
     /// almost twice `half`.
     pub fn around(center: &Vec3, half: f64) -> Self {
-        let origin = each3!(k => center[k] as f32);
+        let origin = each3(|k| center[k] as f32);
         let off = (0..3).map(|k| (center[k] - f64::from(origin[k])).abs());
         let step = ((half + off.fold(0.0, f64::max)) / MAX_PLACE).max(1e-30) * (1.0 + 1e-6);
         Self {
@@ -151,7 +151,7 @@ impl WideNode {
                 .map(|i| own.axes[i][k].abs() * own.half[i])
                 .sum::<f32>()
         };
-        let [low, high] = [-1.0, 1.0].map(|side| each3!(k => own.center[k] + side * extent(k)));
+        let [low, high] = [-1.0, 1.0].map(|side| each3(|k| own.center[k] + side * extent(k)));
         Extent {
             low: low.map(f64::from).into(),
             high: high.map(f64::from).into(),
@@ -199,7 +199,7 @@ impl WideNode {
         let center = Vec3::from(rounded.center.map(f64::from));
         let axes = Mat3::from_columns(&rounded.axes.map(|axis| Vec3::from(axis.map(f64::from))));
         let inverse = axes.try_inverse().expect("the axes are almost upright");
-        let needed = Vec3::from(each3!(i => {
+        let needed = Vec3::from(each3(|i| {
             let farthest = points.iter().fold(0.0, |farthest: f64, p| {
                 let from_center = p - center;
                 let along = axes.column(i).dot(&from_center).abs();
@@ -239,7 +239,7 @@ impl WideNode {
             }
             self.half[i][lane] = half;
         }
-        let size = Vec3::from(each3!(i => {
+        let size = Vec3::from(each3(|i| {
             f64::from(f32::from(self.half[i][lane]) * self.step())
         }));
         self.sizes[lane] = size_code_of(size.norm_squared());
@@ -260,12 +260,11 @@ impl WideNode {
     /// One of the boxes.
     #[inline(always)]
     pub fn get(&self, lane: usize) -> PackedBox {
-        let [a, b] =
-            [0, 1].map(|i: usize| each3!(k => f32::from(self.axes[i][k][lane]) * AXIS_STEP));
+        let [a, b] = [0, 1].map(|i: usize| each3(|k| f32::from(self.axes[i][k][lane]) * AXIS_STEP));
         PackedBox {
             axes: [a, b, cross3(&a, &b)],
-            center: each3!(k => self.center_of(lane, k)),
-            half: each3!(i => f32::from(self.half[i][lane]) * self.step()),
+            center: each3(|k| self.center_of(lane, k)),
+            half: each3(|i| f32::from(self.half[i][lane]) * self.step()),
         }
     }
 

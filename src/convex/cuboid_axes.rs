@@ -48,7 +48,7 @@ impl CuboidAxes {
     /// The gaps along the normals of A's faces.
     #[inline(always)]
     pub fn gaps_at_a(&self) -> [f64; 3] {
-        each3!(i => {
+        each3(|i| {
             let part = |j: usize| self.turn[(i, j)].abs() * self.half_b[j];
             self.between[i].abs() - self.half_a[i] - (part(0) + part(1) + part(2))
         })
@@ -57,7 +57,7 @@ impl CuboidAxes {
     /// The gaps along the normals of B's faces.
     #[inline(always)]
     pub fn gaps_at_b(&self) -> [f64; 3] {
-        each3!(j => {
+        each3(|j| {
             let part = |i: usize| self.turn[(i, j)].abs() * self.half_a[i];
             self.seen_by_b[j].abs() - self.half_b[j] - (part(0) + part(1) + part(2))
         })

@@ -5,16 +5,22 @@ use super::placed::PlacedPrimitive;
 use crate::pose::{Vec3, turned, turned_back};
 use crate::primitive::{Cuboid, Feature};
 
-/// The closest points of a hull of one or two vertices and a box; `None` where they meet.
+/// The closest points of a hull of one or two vertices and a box. Where they meet, a common point, and the depth of the box there.
 pub fn segment_to_cuboid(
     segment: &PlacedPrimitive,
     other: &PlacedPrimitive,
     cuboid: &Cuboid,
-) -> Option<Closest> {
+) -> Closest {
     let start = segment.vertex(0);
     let from = cuboid.seen(&other.seen(&start));
+    let meeting = |point: Vec3, seen: &Vec3| Closest {
+        // A ball around the point is in the box: no shorter way parts the two.
+        depth: (cuboid.half - seen.abs()).min(),
+        ..Closest::meeting_at(point, [Feature::interior(); 2])
+    };
     if segment.vertex_count() == 1 {
-        return beside_cuboid(&start, Feature::vertex(0), &from, other, cuboid);
+        let apart = beside_cuboid(&start, Feature::vertex(0), &from, other, cuboid);
+        return apart.unwrap_or_else(|| meeting(start, &from));
     }
     let end = segment.vertex(1);
     let along = other.turned_back(&(end - start));
@@ -30,7 +36,9 @@ pub fn segment_to_cuboid(
     } else {
         start + (end - start) * t
     };
-    beside_cuboid(&point, feature, &(from + along * t), other, cuboid)
+    let seen = from + along * t;
+    let apart = beside_cuboid(&point, feature, &seen, other, cuboid);
+    apart.unwrap_or_else(|| meeting(point, &seen))
 }
 
 /// The closest points of a box and the point of a set that is nearest to it, which is on this feature of the set; `seen` is where the
@@ -60,7 +68,8 @@ pub fn way_from_cuboid(seen: &Vec3, cuboid: &Cuboid) -> Option<Vec3> {
     (way != Vec3::zeros()).then_some(way)
 }
 
-/// The t in [0, 1] at which the segment start + t along is nearest to the box of these half extents around the origin.
+/// The t in [0, 1] at which the segment start + t along is nearest to the box of these half extents around the origin: where they
+/// meet, the middle of what is in the box.
 ///
 /// The squared distance is convex in t. Its derivative is increasing, and linear between the crossings of the segment's line
 /// with the planes of the box's faces. It is evaluated at all crossings at once, and solved in the interval where it is 0.

@@ -187,7 +187,7 @@ impl<I: Instructions> Outline<'_, I> {
             let [x, y, z] = cross64(&normal, &along);
             let inwards = [x.array(), y.array(), z.array()];
             for lane in 0..(self.corners - 4 * block).min(4) {
-                let corner = |from: &Points64| each3!(k => from[k].0[lane]);
+                let corner = |from: &Points64| each3(|k| from[k].0[lane]);
                 let start = Doubles::point(self.lanes, &corner(starts));
                 let inward = Doubles::point(self.lanes, &corner(&inwards));
                 least = least.min(dot64(&sub64(points, &start), &inward));

@@ -209,7 +209,7 @@ mod tests {
                 center + x * cos + y * sin
             };
             let block =
-                |b: usize| each3!(k => F64x4([0, 1, 2, 3].map(|lane| corner(4 * b + lane)[k])));
+                |b: usize| each3(|k| F64x4([0, 1, 2, 3].map(|lane| corner(4 * b + lane)[k])));
             Self {
                 blocks: (0..corners.div_ceil(4)).map(block).collect(),
                 corners,
@@ -218,7 +218,7 @@ mod tests {
         }
 
         fn outline<I: Instructions>(&self, lanes: I) -> Outline<'_, I> {
-            let first = each3!(k => self.blocks[0][k].0[0]);
+            let first = each3(|k| self.blocks[0][k].0[0]);
             Outline {
                 lanes,
                 blocks: &self.blocks,

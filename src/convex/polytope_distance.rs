@@ -84,25 +84,30 @@ pub fn closed_form(a: &PlacedPrimitive, b: &PlacedPrimitive, pair: &Precision) -
         (1 | 2, 1 | 2) => Some(closest_segments(a, b)),
         (1, _) if is_small_polygon(b) => Some(point_to_polygon(&a.vertex(0), b)),
         (_, 1) if is_small_polygon(a) => Some(point_to_polygon(&b.vertex(0), a).swapped()),
-        (1 | 2, _) | (_, 1 | 2) => closest_to_cuboid(a, b, pair.error),
+        (1 | 2, _) | (_, 1 | 2) => closest_to_cuboid(a, b, pair),
         _ => None,
     }
 }
 
-/// The closest points of a point or a segment and a box that are more than `error` apart.
-fn closest_to_cuboid(a: &PlacedPrimitive, b: &PlacedPrimitive, error: f64) -> Option<Closest> {
+/// The closest points of a point or a segment and a box that are more than the error apart, or clearly in one another.
+fn closest_to_cuboid(
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
+    pair: &Precision,
+) -> Option<Closest> {
     let found = if let Some(cuboid) = cuboid(b)
         && a.vertex_count() <= 2
     {
-        segment_to_cuboid(a, b, cuboid)?
+        segment_to_cuboid(a, b, cuboid)
     } else if let Some(cuboid) = cuboid(a)
         && b.vertex_count() <= 2
     {
-        segment_to_cuboid(b, a, cuboid)?.swapped()
+        segment_to_cuboid(b, a, cuboid).swapped()
     } else {
         return None;
     };
-    (found.distance > error).then_some(found)
+    let is_clear = found.distance > pair.error || found.depth > tolerance::JUST_INSIDE * pair.size;
+    is_clear.then_some(found)
 }
 
 pub fn cuboid<'a>(placed: &PlacedPrimitive<'a>) -> Option<&'a Cuboid> {

@@ -67,13 +67,13 @@ impl BoxFrame {
     /// A box, by two of its axes, its centre relative to the frame's and its half sides.
     #[inline(always)]
     pub(super) fn pack_box(&self, [x, y]: &[Vec3; 2], center: &Vec3, half: &Vec3) -> PackedBox {
-        let (x, y) = (each3!(k => x[k] as f32), each3!(k => y[k] as f32));
+        let (x, y) = (each3(|k| x[k] as f32), each3(|k| y[k] as f32));
         let scale = self.inverse_scale;
         PackedBox {
             axes: [x, y, cross3(&x, &y)],
-            center: each3!(k => (center[k] * scale) as f32),
+            center: each3(|k| (center[k] * scale) as f32),
             // Rounded up: the next number after x is at most x (1 + EPSILON). What is 0 here is so to within ROUNDING.
-            half: each3!(i => (half[i] * scale) as f32 * (1.0 + f32::EPSILON)),
+            half: each3(|i| (half[i] * scale) as f32 * (1.0 + f32::EPSILON)),
         }
     }
 

@@ -130,10 +130,7 @@ impl<'t> PairDescent<'t> {
             is_self,
             frame,
             units: frames.map(|tree| (tree.scale * frame.inverse_scale) as f32),
-            offsets: [
-                each3!(k => -offset[k] as f32),
-                each3!(k => offset[k] as f32),
-            ],
+            offsets: [each3(|k| -offset[k] as f32), each3(|k| offset[k] as f32)],
             limit,
         })
     }
@@ -166,7 +163,7 @@ impl<'t> PairDescent<'t> {
         let (unit, offset) = (self.units[side], &self.offsets[side]);
         PackedBox {
             axes: own.axes,
-            center: each3!(k => own.center[k] * unit + offset[k]),
+            center: each3(|k| own.center[k] * unit + offset[k]),
             half: own.half.map(|half| half * unit),
         }
     }

@@ -209,7 +209,7 @@ pub fn at64<N: FourNumbers>(starts: &[N; 3], along: &[N; 3], parameters: N) -> [
 
 #[inline(always)]
 pub fn splat64(point: &[f64; 3]) -> Points64 {
-    each3!(k => F64x4::splat(point[k]))
+    each3(|k| F64x4::splat(point[k]))
 }
 
 #[cfg(test)]

@@ -104,9 +104,16 @@ pub fn with_each<W: Work>(work: impl Fn() -> W) -> Vec<W::Output> {
     found
 }
 
-/// The values of an expression for the three axes, `each3!(k => ...)`. A macro, because closures and `array::map` are not always
-/// inlined: what uses instructions of the processor is then compiled without them, each as a call.
-macro_rules! each3 {
+/// The values of a function for the three axes. Like `array::map`, which is not always inlined. What computes with lanes takes
+/// [`each_axis`] instead.
+#[inline(always)]
+pub fn each3<T>(f: impl Fn(usize) -> T) -> [T; 3] {
+    [f(0), f(1), f(2)]
+}
+
+/// The values of an expression for the three axes, `each_axis!(k => ...)`. Not every closure is inlined: one that computes with lanes is
+/// then compiled without the processor's instructions, and makes a call of each.
+macro_rules! each_axis {
     ($k:ident => $value:expr) => {
         [
             {
@@ -124,7 +131,7 @@ macro_rules! each3 {
         ]
     };
 }
-pub(crate) use each3;
+pub(crate) use each_axis;
 
 /// The cross product in single precision.
 #[inline(always)]

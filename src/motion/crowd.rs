@@ -131,8 +131,8 @@ impl Crowd {
             twists: P::Lists::map(&moved.displacements, |by| {
                 let at_origin = by.linear - by.angular.cross(&center);
                 Twist32 {
-                    angular: each3!(k => by.angular[k] as f32),
-                    linear: each3!(k => (at_origin[k] * inverse) as f32),
+                    angular: each3(|k| by.angular[k] as f32),
+                    linear: each3(|k| (at_origin[k] * inverse) as f32),
                 }
             }),
             extension: moved.extension,
@@ -158,9 +158,9 @@ impl RootBox {
         let vector = |v: &[f32; 3]| Vec3::from(v.map(f64::from));
         let center = body.center() + vector(&at_home.center) * tree.scale();
         Self {
-            axes: each3!(k => {
+            axes: each3(|k| {
                 let axis = turned(&pose.rotation, &vector(&at_home.axes[k]));
-                each3!(i => axis[i] as f32)
+                each3(|i| axis[i] as f32)
             }),
             half: vector(&at_home.half) * tree.scale(),
             center: pose.transform_point(&center),
@@ -172,8 +172,8 @@ impl RootBox {
         let center = (self.center - origin) * inverse;
         PackedBox {
             axes: self.axes,
-            center: each3!(k => center[k] as f32),
-            half: each3!(k => ((self.half[k] * inverse) as f32).next_up()),
+            center: each3(|k| center[k] as f32),
+            half: each3(|k| ((self.half[k] * inverse) as f32).next_up()),
         }
     }
 }

@@ -240,8 +240,8 @@ impl<'a> MovingPair<'a> {
             angular: turned_back(&pose_a.rotation, &by.angular),
         });
         let twist = |linear: Vec3, angular: Vec3| Twist32 {
-            angular: each3!(k => angular[k] as f32),
-            linear: each3!(k => (linear[k] * inverse) as f32),
+            angular: each3(|k| angular[k] as f32),
+            linear: each3(|k| (linear[k] * inverse) as f32),
         };
         // As A sees it, B moves the other way: what one box makes of its own motion has to be the motion of that box.
         let in_a = L::map(&sweep_twists, |by| twist(-by.linear, -by.angular));

@@ -28,7 +28,7 @@
 //! all.
 
 use crate::boxes::{EightBoxes, PackedBox};
-use crate::lanes::{Instructions, Lanes8, Triple, each3};
+use crate::lanes::{Instructions, Lanes8, Triple, each_axis};
 use crate::pose::{Pose, Vec3};
 
 /// The rounding error of a bound, times the pair's size: 256 * 2^-24.
@@ -56,12 +56,12 @@ impl Motion32 {
     pub fn new(pose: &Pose, unit: f64, scale: f64) -> Self {
         let inverse = 1.0 / scale;
         let twice = |v: [f64; 3]| {
-            let [x, y, z] = each3!(k => v[k] as f32);
+            let [x, y, z] = each_axis!(k => v[k] as f32);
             [x, y, z, 0.0, x, y, z, 0.0]
         };
         Self {
-            rotation: each3!(i => twice(each3!(k => pose.rotation[(k, i)]))),
-            translation: twice(each3!(k => pose.translation[k] * inverse)),
+            rotation: each_axis!(i => twice(each_axis!(k => pose.rotation[(k, i)]))),
+            translation: twice(each_axis!(k => pose.translation[k] * inverse)),
             factor: (unit * inverse) as f32,
         }
     }
@@ -69,7 +69,7 @@ impl Motion32 {
     #[inline(always)]
     pub fn turn(&self, v: &[f32; 3]) -> [f32; 3] {
         let [x, y, z] = &self.rotation;
-        each3!(k => x[k] * v[0] + y[k] * v[1] + z[k] * v[2])
+        each_axis!(k => x[k] * v[0] + y[k] * v[1] + z[k] * v[2])
     }
 
     /// A box, given in lanes (see `WideNode::in_lanes`), in the other frame and in units of the pair.
@@ -217,11 +217,11 @@ pub(super) fn diagonals<I: Instructions>(
     let [of_eight, of_one] = &sides(lanes, eight, one);
     let (of_eight, of_one) = (of_eight.beyond(lanes), of_one.beyond(lanes));
     [
-        each3!(k => {
-            let axes = each3!(i => eight.axes[i][k]);
+        each_axis!(k => {
+            let axes = each_axis!(i => eight.axes[i][k]);
             lanes.dot(&of_eight, &axes)
         }),
-        each3!(k => lanes.along(&of_one, &each3!(j => one.axes[j][k]))),
+        each_axis!(k => lanes.along(&of_one, &each_axis!(j => one.axes[j][k]))),
     ]
 }
 
@@ -273,7 +273,7 @@ impl<I: Instructions> Gaps<I> {
     /// The diagonal of the positive gaps, along the axes.
     #[inline(always)]
     fn beyond(&self, lanes: I) -> Triple<I> {
-        each3!(i => {
+        each_axis!(i => {
             let (place, extent) = (self.places[i], self.extents[i]);
             let below = lanes.sub(lanes.splat(0.0), extent);
             lanes.sub(place, lanes.max(lanes.min(place, extent), below))
@@ -381,14 +381,14 @@ pub(super) fn splat<I: Instructions>(lanes: I, v: &[f32; 3]) -> Triple<I> {
 /// may meet.
 #[inline(always)]
 pub fn gap_of_boxes(first: &PackedBox, second: &PackedBox, direction: &Vec3) -> f32 {
-    let direction = &each3!(k => direction[k] as f32);
-    let apart = each3!(k => second.center[k] - first.center[k]);
+    let direction = &each_axis!(k => direction[k] as f32);
+    let apart = each_axis!(k => second.center[k] - first.center[k]);
     dot(&apart, direction) - extent_of(first, direction) - extent_of(second, direction)
 }
 
 #[inline(always)]
 fn extent_of(given: &PackedBox, direction: &[f32; 3]) -> f32 {
-    let [x, y, z] = each3!(i => dot(&given.axes[i], direction).abs() * given.half[i]);
+    let [x, y, z] = each_axis!(i => dot(&given.axes[i], direction).abs() * given.half[i]);
     x + y + z
 }
 

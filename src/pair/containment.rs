@@ -164,11 +164,11 @@ impl Pairing<'_> {
             return all.collect();
         }
         let (x, y) = (into_inner.rotation.column(0), into_inner.rotation.column(1));
-        let (x, y) = (each3!(k => x[k] as f32), each3!(k => y[k] as f32));
+        let (x, y) = (each3(|k| x[k] as f32), each3(|k| y[k] as f32));
         let one = PackedBox {
             axes: [x, y, cross3(&x, &y)],
-            center: each3!(k => center[k] as f32),
-            half: each3!(k => (half[k] as f32).next_up()),
+            center: each3(|k| center[k] as f32),
+            half: each3(|k| (half[k] as f32).next_up()),
         };
         let error = 2.0 * ROUNDING * size + self.slack() / unit;
         let lowest = near.find(tree, one, error).iter().filter_map(|&primitive| {

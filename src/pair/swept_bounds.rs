@@ -33,7 +33,7 @@
 use super::box_bounds::{AXIS_FACTOR, apart, diagonals, dot, extent_along, splat};
 use crate::boxes::{EightBoxes, PackedBox};
 use crate::convex::Extension;
-use crate::lanes::{Instructions, Lanes8, Triple, cross3, each3};
+use crate::lanes::{Instructions, Lanes8, Triple, cross3, each_axis};
 
 /// Velocities times the time from where boxes are compared to the end of the interval, in units of the pair.
 #[derive(Clone, Copy, Debug)]
@@ -109,12 +109,12 @@ fn gaps_along_axes<I: Instructions>(
     let apart = apart(lanes, eight, &one.center);
     // By the axes of the eight, then of the one.
     let products: [Triple<I>; 3] =
-        each3!(k => each3!(j => lanes.along(&eight.axes[k], &one.axes[j])));
+        each_axis!(k => each_axis!(j => lanes.along(&eight.axes[k], &one.axes[j])));
     let mut gaps = SweptGaps {
         still: lanes.splat(f32::NEG_INFINITY),
         swept: lanes.splat(f32::NEG_INFINITY),
     };
-    let places = each3!(k => lanes.dot(&eight.axes[k], &apart));
+    let places = each_axis!(k => lanes.dot(&eight.axes[k], &apart));
     let moved = moved_along_eight(lanes, eight, one, sweep, &places);
     let half = splat(lanes, &one.half);
     for k in 0..3 {
@@ -125,10 +125,10 @@ fn gaps_along_axes<I: Instructions>(
     let upright = lanes.splat(AXIS_FACTOR);
     let GapsWanted { cutoff, among } = wanted;
     if lanes.not_above(lanes.mul(gaps.swept, upright), cutoff) & among != 0 {
-        let places = each3!(j => lanes.along(&apart, &one.axes[j]));
+        let places = each_axis!(j => lanes.along(&apart, &one.axes[j]));
         let moved = moved_along_one(lanes, eight, one, sweep, &places);
         for j in 0..3 {
-            let along = each3!(k => products[k][j]);
+            let along = each_axis!(k => products[k][j]);
             let extent = extent_along(lanes, &along, &eight.half, lanes.splat(one.half[j]));
             let gap = lanes.sub(lanes.abs(places[j]), extent);
             gaps.offer(lanes, gap, moved[j], extension);
@@ -184,7 +184,7 @@ fn moved_along_one<I: Instructions>(
             let at_center = lanes.mul_add(center[2], az, lanes.mul_add(center[1], ay, first));
             let nearer = nearer(lanes, at_center, places[j], sweep.extension);
             let shifted = lanes.add(nearer, moved[j]);
-            let turned = each3!(k => lanes.along(&eight.axes[k], &arm));
+            let turned = each_axis!(k => lanes.along(&eight.axes[k], &arm));
             moved[j] = extent_along(lanes, &turned, &eight.half, shifted);
         }
     }
@@ -219,11 +219,11 @@ impl Twist32 {
     #[inline(always)]
     fn of_box(&self, one: &PackedBox) -> ([f32; 3], [[f32; 3]; 3]) {
         let turn = cross3(&self.angular, &one.center);
-        let sides = each3!(j => {
+        let sides = each_axis!(j => {
             let turned = cross3(&self.angular, &one.axes[j]);
-            each3!(k => turned[k] * one.half[j])
+            each_axis!(k => turned[k] * one.half[j])
         });
-        (each3!(k => self.linear[k] + turn[k]), sides)
+        (each_axis!(k => self.linear[k] + turn[k]), sides)
     }
 }
 
@@ -282,8 +282,8 @@ impl<I: Instructions> SweptGaps<I> {
                 moved = lanes.add(moved, lanes.abs(lanes.along(way, side)));
             }
         }
-        let with_one = each3!(j => lanes.along(way, &one.axes[j]));
-        let with_eight = each3!(k => lanes.dot(way, &eight.axes[k]));
+        let with_one = each_axis!(j => lanes.along(way, &one.axes[j]));
+        let with_eight = each_axis!(k => lanes.dot(way, &eight.axes[k]));
         let half = splat(lanes, &one.half);
         let of_one = extent_along(lanes, &with_one, &half, lanes.splat(0.0));
         let extents = extent_along(lanes, &with_eight, &eight.half, of_one);

@@ -256,8 +256,8 @@ impl<'a> Walk<'a> {
             let a = self.trees[0].bounding_box(self.trees[0].root());
             let a = PackedBox {
                 axes: a.axes,
-                center: each3!(k => a.center[k] * self.unit(0)),
-                half: each3!(k => a.half[k] * self.unit(0)),
+                center: each3(|k| a.center[k] * self.unit(0)),
+                half: each3(|k| a.half[k] * self.unit(0)),
             };
             let b = self.trees[1].box_in_lanes(lanes, self.trees[1].root());
             let b = self.motions[0].apply(lanes, b);
@@ -271,13 +271,13 @@ impl<'a> Walk<'a> {
     /// Rotates a new direction into both frames.
     #[inline(always)]
     fn turn_direction(&mut self) {
-        let direction = each3!(k => self.visits.state.direction[k] as f32);
-        self.directions = [each3!(k => -direction[k]), self.motions[1].turn(&direction)];
+        let direction = each3(|k| self.visits.state.direction[k] as f32);
+        self.directions = [each3(|k| -direction[k]), self.motions[1].turn(&direction)];
         if self.has_single {
             self.nearest = [0, 1].map(|body| {
                 let from = self.directions[body].map(f64::from).into();
                 let point = self.visits.pairing.nearest_of_only(1 - body, &from)?;
-                Some(each3!(k => (point[k] * self.inverse_scale) as f32))
+                Some(each3(|k| (point[k] * self.inverse_scale) as f32))
             });
         }
     }

@@ -138,7 +138,7 @@ impl Ray {
             up: is_up,
             length: above[up].min(below[down]),
             steps,
-            start: each3!(k => (point[k] * steps) as i64),
+            start: each3(|k| (point[k] * steps) as i64),
         })
     }
 
@@ -150,7 +150,7 @@ impl Ray {
         half[self.axis] = ((0.5 * self.length / unit) as f32).next_up();
         PackedBox {
             axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            center: each3!(k => (middle[k] / unit) as f32),
+            center: each3(|k| (middle[k] / unit) as f32),
             half,
         }
     }

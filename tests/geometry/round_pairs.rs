@@ -244,3 +244,45 @@ fn rounds_have_the_bits_of_their_witness_list() {
         );
     }
 }
+
+/// Where the axis of a capsule or the centre of a ball is in a box, one point of both is the answer: of the axis, and in the box.
+#[test]
+fn axes_in_boxes_have_a_point_in_common_with_them() {
+    let mut random = Random::new(93);
+    let mut query = QueryContext::new();
+    let mut met = 0;
+    for case in 0..20_000 {
+        let half = Vec3::from([0; 3].map(|_| 10f64.powf(random.within(-2.0, 1.0))));
+        let frame = random.pose(1.0);
+        let mut builder = BodyBuilder::new(3).unwrap();
+        builder.add_box(&frame, &half, 7).unwrap();
+        let solid = built(&builder, &Default::default());
+        let round = Round::drawn(&mut random);
+        let mut at = [random.pose(1.0), random.pose(1.0)];
+        // A point of the axis is somewhere in the box.
+        let wanted = half.map(|half| random.within(-0.999_9, 0.999_9) * half);
+        let wanted = at[1].transform_point(&frame.transform_point(&wanted));
+        let share = random.within(0.0, 1.0);
+        at[0].translation += wanted - at[0].transform_point(&round.at(share));
+        let size = at[0].translation.norm() + round.ends[0].norm() + 30.0;
+        let found = query
+            .pair_distance((&round.body, &at[0]), (&solid, &at[1]), f64::INFINITY)
+            .unwrap();
+        assert_eq!(found.distance, 0.0, "{case}");
+        let [on_round, on_solid] = found.points;
+        assert_eq!(on_round, on_solid);
+        let in_box = frame
+            .inverse()
+            .transform_point(&at[1].inverse().transform_point(&on_solid));
+        let outside = (in_box.abs() - half).max();
+        let axis = placed(&round, &at[0]);
+        let from_axis = (on_round - foot(axis, &on_round)).norm();
+        assert!(outside <= 1e-13 * size, "{case}: {outside}");
+        assert!(from_axis <= round.radius, "{case}: {from_axis}");
+        if outside < -1e-3 {
+            met += 1;
+            assert!(from_axis <= 1e-13 * size, "{case}: {from_axis}");
+        }
+    }
+    assert!(met > 5000, "{met}");
+}

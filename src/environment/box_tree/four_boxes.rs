@@ -46,28 +46,25 @@ impl WideNode {
         let first = first & 4;
         let step = f64::from(self.step());
         let inverse_step = 1.0 / step;
-        let place = each3!(k => {
+        let place = each3(|k| {
             let origin = F64x4::splat(f64::from(self.frame[k]));
             (given.center[k] - origin) * inverse_step
         });
         // The rounding direction of halves does not matter: the half sides compensate for it.
-        let center = each3!(k => nearest(place[k], MAX_PLACE));
+        let center = each3(|k| nearest(place[k], MAX_PLACE));
         let axes = [axis_units(&given.axes[0]), axis_units(&given.axes[1])];
         // The half sides are fitted to the rounded axes and centre, and bound the box in both senses of `PackedBox`.
         let unit = 1.0 / AXIS_UNITS;
-        let (a, b) = (
-            each3!(k => axes[0][k] * unit),
-            each3!(k => axes[1][k] * unit),
-        );
+        let (a, b) = (each3(|k| axes[0][k] * unit), each3(|k| axes[1][k] * unit));
         let c = single_cross(&a, &b);
         let rounded = [&a, &b, &c];
-        let off = each3!(k => {
+        let off = each3(|k| {
             let (step, origin) = (self.step(), self.frame[k]);
             given.center[k] - center[k].map(|x| f64::from(x as f32 * step + origin))
         });
         let [x, y] = &given.axes;
         let z = cross64(x, y);
-        let farthest = each3!(i => {
+        let farthest = each3(|i| {
             dot64(rounded[i], &off).abs()
                 + given.half[0] * dot64(rounded[i], x).abs()
                 + given.half[1] * dot64(rounded[i], y).abs()
@@ -76,7 +73,7 @@ impl WideNode {
         // `farthest` bounds the projections. The coefficients are the projections times the inverse of the axes' Gram matrix,
         // I + E; the third axis is orthogonal to the others up to rounding to single precision.
         let one = F64x4::splat(1.0);
-        let off_unit = each3!(i => (dot64(rounded[i], rounded[i]) - one).abs());
+        let off_unit = each3(|i| (dot64(rounded[i], rounded[i]) - one).abs());
         let skew = off_unit[0]
             .max(off_unit[1])
             .max(off_unit[2])
@@ -90,7 +87,7 @@ impl WideNode {
         ];
         // Slightly more, as the product with the step is rounded to single precision.
         let more = inverse_step * (1.0 + 1e-6);
-        let half = each3!(i => needed[i].map(|x| (x * more).ceil()));
+        let half = each3(|i| needed[i].map(|x| (x * more).ceil()));
         let farthest_place = place[0].abs().max(place[1].abs()).max(place[2].abs());
         let largest_half = half[0].max(half[1]).max(half[2]);
         let is_set = |lane: usize| lanes >> lane & 1 == 1;
@@ -124,13 +121,13 @@ fn nearest(x: F64x4, max: f64) -> F64x4 {
 
 #[inline(always)]
 fn axis_units(axis: &Points64) -> Points64 {
-    each3!(k => nearest(axis[k] * AXIS_UNITS, MAX_AXIS))
+    each3(|k| nearest(axis[k] * AXIS_UNITS, MAX_AXIS))
 }
 
 /// The cross product computed in single precision, of numbers that are exact in it.
 #[inline(always)]
 fn single_cross(a: &Points64, b: &Points64) -> Points64 {
-    each3!(k => {
+    each3(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         let forth = a[i].zip(b[j], |x, y| f64::from(x as f32 * y as f32));
         let back = a[j].zip(b[i], |x, y| f64::from(x as f32 * y as f32));

@@ -175,13 +175,13 @@ impl GrowingBox {
 
     #[inline(always)]
     fn add(&mut self, points: &[Points64]) {
-        let axes: [[f64; 3]; 3] = each3!(i => each3!(k => self.axes.axes[(k, i)]));
+        let axes: [[f64; 3]; 3] = each3(|i| each3(|k| self.axes.axes[(k, i)]));
         let (mut low, mut high) = (self.low, self.high);
         for four in points {
             // Unrolled: of a loop over the axes, compilers for AVX-512 make gathers and scatters, which took 40 % of a refit.
-            let along = each3!(i => along64(four, &axes[i]));
-            low = each3!(i => low[i].min(along[i]));
-            high = each3!(i => high[i].max(along[i]));
+            let along = each3(|i| along64(four, &axes[i]));
+            low = each3(|i| low[i].min(along[i]));
+            high = each3(|i| high[i].max(along[i]));
         }
         (self.low, self.high) = (low, high);
     }
@@ -190,8 +190,8 @@ impl GrowingBox {
     fn spans(&self) -> AxisSpans {
         AxisSpans {
             axes: self.axes,
-            low: each3!(i => self.low[i].least()).into(),
-            high: each3!(i => self.high[i].greatest()).into(),
+            low: each3(|i| self.low[i].least()).into(),
+            high: each3(|i| self.high[i].greatest()).into(),
         }
     }
 }
@@ -201,8 +201,8 @@ impl GrowingBox {
 fn in_lanes(triangles: [&PackedTriangle; 4], unit: f64) -> ([Points64; 3], Points64) {
     let [a, b, c, d] = triangles;
     let lanes = |row: usize, i: usize| F64x4([a[row].0[i], b[row].0[i], c[row].0[i], d[row].0[i]]);
-    let corners = each3!(corner => each3!(k => lanes(1 + k, corner) * unit));
-    (corners, each3!(k => lanes(0, k)))
+    let corners = each3(|corner| each3(|k| lanes(1 + k, corner) * unit));
+    (corners, each3(|k| lanes(0, k)))
 }
 
 /// Appends a primitive's bounding points, whose lengths are multiplied by `unit`; the last is repeated to fill the lanes.
@@ -214,7 +214,7 @@ fn append(primitive: &Primitive, unit: f64, to: &mut Vec<Points64>) {
         for i in 1..4 {
             four[i] = points.next().unwrap_or(four[i - 1]);
         }
-        to.push(each3!(k => F64x4(four.map(|point| point[k] * unit))));
+        to.push(each3(|k| F64x4(four.map(|point| point[k] * unit))));
     }
 }
 

@@ -109,7 +109,7 @@ pub struct Whole {
 impl Whole {
     pub fn ball(&self) -> Ball {
         Ball {
-            center: Vec3::from(each3!(k => self.frame[k].0[3])),
+            center: Vec3::from(each3(|k| self.frame[k].0[3])),
             radius: self.ball_radius,
         }
     }
@@ -202,7 +202,7 @@ impl PackedTree {
         let [center, half] = [root.center, root.half].map(|v| v.map(f64::from));
         let half = Vec3::from(half) * self.scale;
         self.whole = Whole {
-            frame: each3!(k => {
+            frame: each3(|k| {
                 let [x, y] = [x[k], y[k]].map(f64::from);
                 F64x4([x, y, center[k] * self.scale, ball.center[k]])
             }),
