@@ -80,7 +80,7 @@ pub struct EightBoxes<I: Instructions> {
     pub half: Triple<I>,
 }
 
-/// The volume of the cube that three axes span is about 1; below this they are no axes of a box.
+/// The cube that three axes of a box span has a volume of about 1, of either sign; less than this, they are none.
 const LEAST_VOLUME: f64 = 0.5;
 
 impl WideNode {
@@ -182,7 +182,7 @@ impl WideNode {
         center: &Vec3,
     ) -> bool {
         let upright = Mat3::identity();
-        let axes = if axes.determinant() > LEAST_VOLUME {
+        let axes = if axes.determinant().abs() > LEAST_VOLUME {
             axes
         } else {
             &upright
