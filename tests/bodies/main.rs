@@ -11,6 +11,7 @@ mod parts;
 mod placed_meshes;
 mod refined_patches;
 mod refits;
+mod refused_nurbs_surfaces;
 mod sampled_surfaces;
 mod solid_bodies;
 mod solid_clouds;

@@ -18,6 +18,7 @@ mod held_objects;
 mod left_out;
 mod link_pairs;
 mod link_pairs_far;
+mod moving_deviations;
 mod object_pairs;
 mod octomap_files;
 mod octrees;
