@@ -19,6 +19,10 @@ pub enum Motion {
     Random,
     /// Once round the other body in small steps, turning once, in and out twice.
     Coherent,
+    /// Independent, both bodies turned about the vertical alone, as what stands on one floor.
+    Upright,
+    /// Independent, both turned by quarters alone: faces and axes are parallel.
+    Aligned,
 }
 
 impl Motion {
@@ -26,6 +30,8 @@ impl Motion {
         match self {
             Motion::Random => "random",
             Motion::Coherent => "coherent",
+            Motion::Upright => "upright",
+            Motion::Aligned => "aligned",
         }
     }
 }
@@ -40,17 +46,32 @@ pub fn placements(
     seed: u64,
 ) -> Vec<Placement> {
     let random = &mut Random::new(seed);
-    let first = Approach::drawn(random, gaps);
+    let first = Approach::drawn(random, motion, gaps);
     let axes = [random.direction(), random.direction()];
     (0..count)
         .map(|k| {
             let approach = match motion {
-                Motion::Random => Approach::drawn(random, gaps),
                 Motion::Coherent => first.moved_on(k as f64 / count as f64, axes, gaps),
+                independent => Approach::drawn(random, independent, gaps),
             };
             approach.placed(ours)
         })
         .collect()
+}
+
+fn turn(random: &mut Random, motion: Motion) -> Pose {
+    let about = |axis: usize, angle: f64| {
+        let along = std::array::from_fn(|k| f64::from(u8::from(k == axis)));
+        Pose::rotation(along, angle)
+    };
+    match motion {
+        Motion::Random | Motion::Coherent => random.rotation(),
+        Motion::Upright => about(2, random.within(0.0, TAU)),
+        Motion::Aligned => (0..3).fold(Pose::identity(), |pose, axis| {
+            let quarters = (random.bits() % 4) as f64;
+            pose.compose(&about(axis, quarters * TAU / 4.0))
+        }),
+    }
 }
 
 /// How the first body comes to the other.
@@ -63,10 +84,11 @@ struct Approach {
 }
 
 impl Approach {
-    fn drawn(random: &mut Random, gaps: [f64; 2]) -> Self {
+    fn drawn(random: &mut Random, motion: Motion, gaps: [f64; 2]) -> Self {
+        let at = Pose::translation(random.point(1.0));
         Self {
-            at: Pose::translation(random.point(1.0)).compose(&random.rotation()),
-            turn: random.rotation(),
+            at: at.compose(&turn(random, motion)),
+            turn: turn(random, motion),
             direction: random.direction(),
             gap: random.within(gaps[0], gaps[1]),
         }

@@ -68,6 +68,7 @@ pub type Maker = Box<dyn Fn() -> Rows>;
 /// All of them; with `quick`, without the largest clouds. The seed is that of meshes and clouds.
 pub fn all(quick: bool, seed: u64) -> Vec<Maker> {
     let mut makers = single_shapes();
+    makers.extend(standing_shapes());
     makers.extend(shapes_and_meshes(seed));
     makers.extend(thresholds(seed));
     makers.extend(clouds(quick, seed));
@@ -88,6 +89,36 @@ fn single_shapes() -> Vec<Maker> {
                 motion,
                 ..Rows::of(
                     "shapes",
+                    pair.map(Shape::named),
+                    &[Query::Distance, Query::Collide],
+                )
+            }));
+        }
+    }
+    makers
+}
+
+/// Shapes whose faces and axes are parallel, as in scenes that people build.
+fn standing_shapes() -> Vec<Maker> {
+    let mut makers: Vec<Maker> = Vec::new();
+    for pair in [
+        ["box", "box"],
+        ["capsule", "box"],
+        ["cylinder", "box"],
+        ["cone", "box"],
+        ["prism 12", "box"],
+        ["capsule", "capsule"],
+        ["cylinder", "capsule"],
+        ["prism 12", "capsule"],
+        ["cylinder", "cylinder"],
+        ["prism 12", "cylinder"],
+        ["prism 12", "prism 12"],
+    ] {
+        for motion in [Motion::Upright, Motion::Aligned] {
+            makers.push(Box::new(move || Rows {
+                motion,
+                ..Rows::of(
+                    "standing shapes",
                     pair.map(Shape::named),
                     &[Query::Distance, Query::Collide],
                 )

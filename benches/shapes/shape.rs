@@ -1,5 +1,7 @@
 //! The bodies, each about 1 across and about the origin.
 
+use std::f64::consts::TAU;
+
 use cstk_scenes::{Random, bumpy_sphere};
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::convex_hull;
@@ -83,6 +85,7 @@ impl Shape {
             },
             "hull 50" => return Self::hull(50),
             "hull 500" => return Self::hull(500),
+            "prism 12" => return Self::hull_of(name, &prism(12)),
             _ => panic!("no shape is called {name}"),
         };
         Self::new(name, kind)
@@ -96,8 +99,11 @@ impl Shape {
             .map(|_| random.direction())
             .map(|d| Vector::new(axes[0] * d[0], axes[1] * d[1], axes[2] * d[2]))
             .collect();
-        let (vertices, triangles) = convex_hull(&points);
-        let name = format!("hull {}", vertices.len());
+        Self::hull_of(&format!("hull {}", points.len()), &points)
+    }
+
+    fn hull_of(name: &str, points: &[Vector]) -> Self {
+        let (vertices, triangles) = convex_hull(points);
         let vertices = vertices.iter().flat_map(|p| [p.x, p.y, p.z]).collect();
         let triangles = triangles.concat();
         Self::new(
@@ -133,6 +139,17 @@ impl Shape {
         };
         Self::new(format!("cloud {points}"), kind)
     }
+}
+
+/// The corners of an upright prism over a regular polygon.
+fn prism(corners: usize) -> Vec<Vector> {
+    let at = |k: usize, height: f64| {
+        let (y, x) = (TAU * k as f64 / corners as f64).sin_cos();
+        Vector::new(0.4 * x, 0.4 * y, height)
+    };
+    (0..corners)
+        .flat_map(|k| [at(k, -0.4), at(k, 0.4)])
+        .collect()
 }
 
 fn scaled(points: &[[f64; 3]]) -> Vec<f64> {

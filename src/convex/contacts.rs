@@ -1,7 +1,7 @@
 //! The contacts of two primitives, by the form of these.
 
 use super::contact::Contact;
-use super::core::is_curved;
+use super::core::{is_curved, is_smooth};
 use super::curved_contacts::{curved_contacts, first_curved_contact};
 use super::distance::PrimitiveDistance;
 use super::placed::{PlacedPrimitive, Precision};
@@ -34,7 +34,10 @@ pub fn first_contact(
     measured: &PrimitiveDistance,
     precision: &Precision,
 ) -> Option<Contact> {
-    let first = if is_curved(r, s) {
+    let first = if is_smooth(r, s) {
+        // The only one.
+        return first_curved_contact(r, s, measured, precision);
+    } else if is_curved(r, s) {
         first_curved_contact(r, s, measured, precision)
     } else {
         first_polytope_contact(r, s, &measured.closest, precision)

@@ -5,11 +5,14 @@ use super::placed::PlacedPrimitive;
 use crate::pose::{Vec3, turned, turned_back};
 use crate::primitive::{Cuboid, Feature};
 
-/// The closest points of a hull of one or two vertices and a box. Where they meet, a common point, and the depth of the box there.
+/// The closest points of a hull of one or two vertices and a box. Where they meet, a common point, and the depth of the box there. Of a
+/// segment along a face they are an end of what is over the face: on features that have a contact mode. A point within `slack` of an edge of
+/// the box is on it then.
 pub fn segment_to_cuboid(
     segment: &PlacedPrimitive,
     other: &PlacedPrimitive,
     cuboid: &Cuboid,
+    slack: f64,
 ) -> Closest {
     let start = segment.vertex(0);
     let from = cuboid.seen(&other.seen(&start));
@@ -19,17 +22,17 @@ pub fn segment_to_cuboid(
         ..Closest::meeting_at(point, [Feature::interior(); 2])
     };
     if segment.vertex_count() == 1 {
-        let apart = beside_cuboid(&start, Feature::vertex(0), &from, other, cuboid);
+        let apart = beside_cuboid(&start, Feature::vertex(0), &from, other, cuboid, 0.0);
         return apart.unwrap_or_else(|| meeting(start, &from));
     }
     let end = segment.vertex(1);
     let along = other.turned_back(&(end - start));
     let along = turned_back(&cuboid.axes, &along);
     let t = nearest_parameter(&from, &along, &cuboid.half);
-    let feature = match t {
-        0.0 => Feature::vertex(0),
-        1.0 => Feature::vertex(1),
-        _ => Feature::edge(0),
+    let (feature, slack) = match t {
+        0.0 => (Feature::vertex(0), 0.0),
+        1.0 => (Feature::vertex(1), 0.0),
+        _ => (Feature::edge(0), slack),
     };
     let point = if t == 1.0 {
         end
@@ -37,7 +40,7 @@ pub fn segment_to_cuboid(
         start + (end - start) * t
     };
     let seen = from + along * t;
-    let apart = beside_cuboid(&point, feature, &seen, other, cuboid);
+    let apart = beside_cuboid(&point, feature, &seen, other, cuboid, slack);
     apart.unwrap_or_else(|| meeting(point, &seen))
 }
 
@@ -50,10 +53,11 @@ fn beside_cuboid(
     seen: &Vec3,
     other: &PlacedPrimitive,
     cuboid: &Cuboid,
+    slack: f64,
 ) -> Option<Closest> {
     let across = way_from_cuboid(seen, cuboid)?;
     let on_other = point - other.turned(&turned(&cuboid.axes, &across));
-    let features = [feature, cuboid.feature_towards(seen)];
+    let features = [feature, cuboid.feature_at(seen, slack)];
     Some(Closest {
         distance: across.norm(),
         ..Closest::between([*point, on_other], features)
@@ -69,7 +73,7 @@ pub fn way_from_cuboid(seen: &Vec3, cuboid: &Cuboid) -> Option<Vec3> {
 }
 
 /// The t in [0, 1] at which the segment start + t along is nearest to the box of these half extents around the origin: where they
-/// meet, the middle of what is in the box.
+/// meet, the middle of what is in the box; where it is along a face, the start of what is over it.
 ///
 /// The squared distance is convex in t. Its derivative is increasing, and linear between the crossings of the segment's line
 /// with the planes of the box's faces. It is evaluated at all crossings at once, and solved in the interval where it is 0.
@@ -108,17 +112,20 @@ fn nearest_parameter(start: &Vec3, along: &Vec3, half: &Vec3) -> f64 {
     }
     let high = high.max(low);
     let middle = 0.5 * (low + high);
-    let (mut part, mut whole) = (0.0, 0.0);
+    let (mut part, mut whole, mut apart) = (0.0, 0.0, false);
     for k in 0..3 {
         let x = start[k] + along[k] * middle;
         let bound = x.clamp(-half[k], half[k]);
         if x != bound {
+            apart = true;
             part += (bound - start[k]) * along[k];
             whole += along[k] * along[k];
         }
     }
     if whole > 0.0 {
         (part / whole).clamp(low, high)
+    } else if apart {
+        low
     } else {
         middle
     }

@@ -3,6 +3,7 @@
 
 use super::closest::{Closest, Segment, closest_parameters};
 use super::cuboid_axes::{CuboidAxes, EdgeGap, GAP_ERROR};
+use super::parallel_cuboids::parallel_closest;
 use super::placed::PlacedPrimitive;
 use crate::gjk::DistanceLimits;
 use crate::lanes::{Instructions, Work, with_widest};
@@ -92,6 +93,9 @@ impl Work for Search<'_> {
         let found = if overlap > tolerance::TOUCH_DEPTH * self.size {
             self.common(&axes, overlap)
         } else if largest > error {
+            if let Some(points) = parallel_closest(&axes, self.size) {
+                return CuboidsClosest::Found(self.at(points));
+            }
             match axis {
                 Axis::FaceOfA(k) => self.on_face_of_a(&axes, k),
                 Axis::FaceOfB(k) => self.on_face_of_b(&axes, k),
@@ -131,6 +135,18 @@ impl Search<'_> {
             depth,
             ..Closest::meeting_at(common, [Feature::interior(); 2])
         })
+    }
+
+    /// Two points, each in its own box's frame.
+    #[inline(always)]
+    fn at(&self, seen: [Vec3; 2]) -> Closest {
+        let slack = GAP_ERROR * self.size;
+        let feature = |side: usize| self.cuboids[side].feature_at(&seen[side], slack);
+        let point = |side: usize| {
+            let cuboid = self.cuboids[side];
+            self.placed[side].moved(&(cuboid.center + turned(&cuboid.axes, &seen[side])))
+        };
+        Closest::between([point(0), point(1)], [feature(0), feature(1)])
     }
 
     #[inline(always)]
@@ -226,8 +242,10 @@ impl Search<'_> {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
     use super::*;
-    use crate::convex::PlacedBuffer;
+    use crate::convex::{PlacedBuffer, mode_of};
     use crate::pose::{Pose, rotation_about};
     use crate::primitive::{Form, block};
 
@@ -281,6 +299,38 @@ mod tests {
         }
     }
 
+    /// What is found, whose points and distance prove themselves.
+    fn closest(a: &Block, b: &Block) -> Option<Closest> {
+        let [shape_a, shape_b] = [a, b].map(|one| block(&Pose::identity(), &one.half).unwrap());
+        let forms = [&shape_a, &shape_b].map(|shape| Form::of(shape).unwrap());
+        let mut buffers = [PlacedBuffer::default(), PlacedBuffer::default()];
+        let [buffer_a, buffer_b] = &mut buffers;
+        let placed_a = buffer_a.place(&shape_a, Some(&forms[0]), &a.pose);
+        let placed_b = buffer_b.place(&shape_b, Some(&forms[1]), &b.pose);
+        let cuboids = [forms[0].cuboid().unwrap(), forms[1].cuboid().unwrap()];
+        let limits = DistanceLimits::EXACT;
+        let CuboidsClosest::Found(found) =
+            cuboids_closest([&placed_a, &placed_b], cuboids, 5.0, limits)
+        else {
+            return None;
+        };
+        let [on_a, on_b] = found.points;
+        assert!((a.nearest(&on_a) - on_a).norm() < 1e-14);
+        assert!((b.nearest(&on_b) - on_b).norm() < 1e-14);
+        if found.distance > 0.0 {
+            assert!(((on_a - on_b).norm() - found.distance).abs() < 1e-14);
+            let direction = (on_a - on_b) / found.distance;
+            let from_a = a.corners().map(|p| direction.dot(&p));
+            let from_b = b.corners().map(|p| direction.dot(&p));
+            let gap =
+                from_a.fold(f64::INFINITY, f64::min) - from_b.fold(f64::NEG_INFINITY, f64::max);
+            // The direction is off by the points' rounding over their distance.
+            let rounding = 1e-14 + 4e-15 / found.distance;
+            assert!((gap - found.distance).abs() < rounding, "{gap} {found:?}");
+        }
+        Some(found)
+    }
+
     /// Alternating projections come to a point of both sets where there is one.
     fn meet(a: &Block, b: &Block) -> bool {
         let mut point = a.pose.translation;
@@ -308,33 +358,13 @@ mod tests {
                     half: random.half(spread),
                     pose,
                 };
-                let [shape_a, shape_b] =
-                    [&a, &b].map(|one| block(&Pose::identity(), &one.half).unwrap());
-                let forms = [&shape_a, &shape_b].map(|shape| Form::of(shape).unwrap());
-                let mut buffer = PlacedBuffer::default();
-                let placed_a = PlacedPrimitive::at_home(&shape_a, Some(&forms[0]));
-                let placed_b = buffer.place(&shape_b, Some(&forms[1]), &b.pose);
-                let cuboids = [forms[0].cuboid().unwrap(), forms[1].cuboid().unwrap()];
-                let found =
-                    cuboids_closest([&placed_a, &placed_b], cuboids, 5.0, DistanceLimits::EXACT);
                 all += 1;
-                let CuboidsClosest::Found(found) = found else {
+                let Some(found) = closest(&a, &b) else {
                     continue;
                 };
                 let [on_a, on_b] = found.points;
-                assert!((a.nearest(&on_a) - on_a).norm() < 1e-14);
-                assert!((b.nearest(&on_b) - on_b).norm() < 1e-14);
                 if found.distance > 0.0 {
                     apart += 1;
-                    assert!(((on_a - on_b).norm() - found.distance).abs() < 1e-14);
-                    let direction = (on_a - on_b) / found.distance;
-                    let from_a = a.corners().map(|p| direction.dot(&p));
-                    let from_b = b.corners().map(|p| direction.dot(&p));
-                    let gap = from_a.fold(f64::INFINITY, f64::min)
-                        - from_b.fold(f64::NEG_INFINITY, f64::max);
-                    // The direction is off by the points' rounding over their distance.
-                    let rounding = 1e-14 + 4e-15 / found.distance;
-                    assert!((gap - found.distance).abs() < rounding, "{gap} {found:?}");
                 } else if overlaps < 300 {
                     overlaps += 1;
                     assert_eq!(on_a, on_b);
@@ -355,6 +385,61 @@ mod tests {
         assert!(
             apart > 1000 && overlaps == 300,
             "{apart} {overlaps} of {all}"
+        );
+    }
+    /// Boxes with parallel axes are all told apart by what proves itself, and have a contact: those that stand on one floor, and those
+    /// turned by quarters.
+    #[test]
+    fn boxes_with_parallel_axes_are_found() {
+        let mut random = Random(11);
+        let (mut modes, mut apart) = ([0; 6], 0);
+        for round in 0..20_000 {
+            let quarter = |random: &mut Random| random.within(0.0, 4.0).floor() * FRAC_PI_2;
+            let turn = |random: &mut Random| match round % 2 {
+                0 => rotation_about(&Vec3::z(), random.within(0.0, 6.0)),
+                _ => [Vec3::x(), Vec3::y(), Vec3::z()]
+                    .iter()
+                    .map(|axis| rotation_about(axis, quarter(random)))
+                    .product(),
+            };
+            // Half of them are on a grid, so that faces are level and edges flush.
+            let on_grid = |v: Vec3| match round / 2 % 2 {
+                0 => v,
+                _ => (v * 4.0).map(f64::round) / 4.0,
+            };
+            let mut block = || Block {
+                half: on_grid(random.half(1.0)).sup(&Vec3::repeat(0.1)),
+                pose: Pose {
+                    rotation: turn(&mut random),
+                    translation: on_grid(random.vector() * 1.5),
+                },
+            };
+            let (a, b) = (block(), block());
+            let seen = |corner: &Vec3| b.pose.inverse().transform_point(corner);
+            let found = closest(&a, &b);
+            // Apart by more than rounding along an axis of one of them.
+            let gap_at = |one: &Block, other: &Block| {
+                let seen = |p: Vec3| one.pose.inverse().transform_point(&p);
+                (0..3).fold(f64::NEG_INFINITY, |most, k| {
+                    let (low, high) = other
+                        .corners()
+                        .map(|p| seen(p)[k])
+                        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                            (low.min(x), high.max(x))
+                        });
+                    most.max(low - one.half[k]).max(-one.half[k] - high)
+                })
+            };
+            if gap_at(&a, &b).max(gap_at(&b, &a)) < 1e-12 {
+                continue;
+            }
+            apart += 1;
+            let found = found.unwrap_or_else(|| panic!("{:?} {:?}", a.half, seen(&a.half)));
+            modes[mode_of(found.features).expect("a contact mode") as usize] += 1;
+        }
+        assert!(
+            apart > 10_000 && modes.iter().all(|count| *count > 100),
+            "{apart} {modes:?}"
         );
     }
 }

@@ -1,6 +1,7 @@
 //! Pairs of convex sets: bounds by GJK, exact distances by closed forms on features, contacts and their modes. `distance.rs`,
 //! `contacts.rs` and `penetration.rs` choose the file that treats a pair, by the form of its primitives.
 
+mod beside_cylinder;
 mod beside_plain_solid;
 mod beyond;
 mod closest;
@@ -16,9 +17,11 @@ mod curved_contacts;
 mod distance;
 mod extreme_vertex;
 mod gauss_arcs;
+mod level_features;
 mod nearest_edges;
 mod nearest_parts;
 mod outline;
+mod parallel_cuboids;
 mod penetration;
 mod placed;
 mod point_to_polygon;

@@ -5,6 +5,7 @@ use super::beyond::Beyond;
 use super::closest::{Closest, FeatureSet, closest_features, closest_segments};
 use super::cuboid_distance::segment_to_cuboid;
 use super::cuboids_closest::{CuboidsClosest, cuboids_closest};
+use super::level_features::at_end;
 use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_polygon::point_to_polygon;
 use crate::gjk::{DistanceLimits, NearestCorners, gjk};
@@ -98,11 +99,11 @@ fn closest_to_cuboid(
     let found = if let Some(cuboid) = cuboid(b)
         && a.vertex_count() <= 2
     {
-        segment_to_cuboid(a, b, cuboid)
+        segment_to_cuboid(a, b, cuboid, pair.error)
     } else if let Some(cuboid) = cuboid(a)
         && b.vertex_count() <= 2
     {
-        segment_to_cuboid(b, a, cuboid).swapped()
+        segment_to_cuboid(b, a, cuboid, pair.error).swapped()
     } else {
         return None;
     };
@@ -223,7 +224,11 @@ fn bounded_closest(
         && nearest.difference.norm() - bounds.lower <= tolerance::CERTIFIED_GAP * size
         && let Some(found) = between_corners(a, b, nearest)
     {
-        return Ok(found);
+        let accepted = bounds.lower + tolerance::CERTIFIED_GAP * size;
+        let at_end = at_end([a, b], found, pair.error);
+        return Ok(at_end
+            .filter(|found| found.distance <= accepted)
+            .unwrap_or(found));
     }
     if bounds.lower > 0.0 {
         let slack = tolerance::NEAR_SUPPORT * size;

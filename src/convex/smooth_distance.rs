@@ -1,5 +1,6 @@
 //! The closest points of two cores of which at least one is smooth: known only by its support function.
 
+use super::beside_cylinder::{beside_cylinder, is_cylinder};
 use super::beyond::Beyond;
 use super::closest::{Closest, Segment, closest_parameters};
 use super::core::Core;
@@ -28,6 +29,9 @@ pub fn smooth_closest(
         // Not divided by the distance, which is rounded otherwise: this has to be of length 1.
         let direction = (found.points[0] - found.points[1]).normalize();
         return Ok((found, direction));
+    }
+    if let Some(found) = between_parallel([a, b], [&core_a, &core_b], pair) {
+        return Ok(found);
     }
     // A start that depends on the two primitives alone, so that the answer does too.
     let start = a.middle() - b.middle();
@@ -69,6 +73,19 @@ fn from_point(point: &PlacedPrimitive, core: &Core, pair: &Precision) -> Option<
     }
     let least = tolerance::MIN_SMOOTH_NORMAL_DISTANCE * pair.size;
     point_to_smooth(&point.vertex(0), core, least)
+}
+
+/// The closest points of a cylinder and of what has an axis parallel to its own, in closed form.
+fn between_parallel(
+    [a, b]: [&PlacedPrimitive; 2],
+    [core_a, core_b]: [&Core; 2],
+    pair: &Precision,
+) -> Option<(Closest, Vec3)> {
+    if is_cylinder(core_a) {
+        return beside_cylinder([core_a, core_b], b, pair.size);
+    }
+    let (found, direction) = beside_cylinder([core_b, core_a], a, pair.size)?;
+    Some((found.swapped(), -direction))
 }
 
 /// How far the upper bound may exceed the distance, beyond the pair's error. Where no direction proves the sets apart it is the

@@ -158,7 +158,13 @@ impl Cuboid {
 
     /// The feature that holds the box's nearest point to an outside point, given in the box's frame.
     pub fn feature_towards(&self, seen: &Vec3) -> Feature {
-        let beyond = |k: usize| seen[k].abs() > self.half[k];
+        self.feature_at(seen, 0.0)
+    }
+
+    /// The same where what is less than `slack` below a face counts as on it.
+    #[inline(always)]
+    pub fn feature_at(&self, seen: &Vec3, slack: f64) -> Feature {
+        let beyond = |k: usize| seen[k].abs() > self.half[k] - slack;
         let high = |k: usize| usize::from(seen[k] > 0.0);
         let corner = high(0) | high(1) << 1 | high(2) << 2;
         let outside = [beyond(0), beyond(1), beyond(2)];
