@@ -238,16 +238,15 @@ impl<T: Clone + Default, const N: usize> FromIterator<T> for CowVec<T, N> {
 
 #[cfg(test)]
 mod tests {
+    use cstk_scenes::Random;
+
     use super::*;
 
     /// Against plain vectors: a clone keeps its items when the other is changed.
     #[test]
     fn clones_keep_what_they_held() {
-        let mut state = 1u64;
-        let mut random = move |n: usize| {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1);
-            (state >> 33) as usize % n
-        };
+        let mut random = Random::new(1);
+        let mut random = move |n: usize| (random.bits() % n as u64) as usize;
         let mut vector: CowVec<String, 2> = CowVec::default();
         let mut plain: Vec<String> = Vec::new();
         let mut kept = Vec::new();
@@ -278,11 +277,8 @@ mod tests {
     /// Two vectors that take turns, like the states of an environment, with clones of some states kept.
     #[test]
     fn a_vector_that_follows_another_is_equal_to_it() {
-        let mut state = 7u64;
-        let mut random = move |n: usize| {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1);
-            (state >> 33) as usize % n
-        };
+        let mut random = Random::new(7);
+        let mut random = move |n: usize| (random.bits() % n as u64) as usize;
         let mut now: CowVec<String, 2> = (0..20).map(|i: u32| i.to_string()).collect();
         let mut before = CowVec::default();
         let mut plain: Vec<String> = now.iter().cloned().collect();

@@ -143,6 +143,8 @@ impl<I: Instructions> TwoFold<I> {
 
 #[cfg(test)]
 mod tests {
+    use cstk_scenes::Random;
+
     use super::*;
     use crate::lanes::{Plain, with_each};
     use crate::pose::{IsPose, rotation_about};
@@ -174,18 +176,10 @@ mod tests {
         assert!(apart.iter().all(|x| *x == 0.0 && x.is_sign_positive()));
     }
 
-    /// Numbers that have nothing to do with each other, from -1 to 1.
-    fn numbers(seed: &mut u64) -> impl FnMut() -> f64 {
-        move || {
-            *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1);
-            (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-        }
-    }
-
     #[test]
     fn every_instruction_set_sees_the_same_poses() {
-        let mut seed = 9;
-        let mut next = numbers(&mut seed);
+        let mut random = Random::new(9);
+        let mut next = || random.within(-1.0, 1.0);
         let (mut accepted, mut rejected) = (0, 0);
         for case in 0..4000 {
             let mut pose = || {

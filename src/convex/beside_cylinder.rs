@@ -275,41 +275,31 @@ impl Along {
 mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};
 
+    use cstk_scenes::Random;
+
     use super::*;
     use crate::convex::PlacedBuffer;
     use crate::gjk::{DistanceLimits, refined};
     use crate::pose::{Pose, rotation_about};
     use crate::primitive::{Convex, Form, block, convex_polyhedron, cylinder};
 
-    struct Random(u64);
+    fn vector(random: &mut Random) -> Vec3 {
+        Vec3::from(random.point(1.0))
+    }
 
-    impl Random {
-        fn within(&mut self, low: f64, high: f64) -> f64 {
-            self.0 = self
-                .0
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
-        }
-
-        fn vector(&mut self) -> Vec3 {
-            Vec3::from([0; 3].map(|_| self.within(-1.0, 1.0)))
-        }
-
-        fn size(&mut self) -> f64 {
-            10f64.powf(self.within(-1.5, 0.0))
-        }
+    fn size(random: &mut Random) -> f64 {
+        10f64.powf(random.within(-1.5, 0.0))
     }
 
     fn shape(kind: usize, random: &mut Random) -> Convex {
         match kind {
-            0 => cylinder(&Pose::identity(), random.size(), random.size()).unwrap(),
+            0 => cylinder(&Pose::identity(), size(random), size(random)).unwrap(),
             1 => {
-                let half = Vec3::from([0; 3].map(|_| random.size()));
+                let half = Vec3::from([0; 3].map(|_| size(random)));
                 block(&Pose::identity(), &half).unwrap()
             }
             _ => {
-                let end = Vec3::z() * random.size();
+                let end = Vec3::z() * size(random);
                 convex_polyhedron(&[end, -end]).unwrap()
             }
         }
@@ -318,14 +308,14 @@ mod tests {
     /// Cores with parallel axes that are clearly apart are found, as GJK by support points alone has them.
     #[test]
     fn parallel_cores_are_as_far_apart_as_gjk_finds() {
-        let mut random = Random(5);
+        let random = &mut Random::new(5);
         let (mut found, mut met) = ([0; 3], [0; 3]);
         for round in 0..6000 {
             let kind = round % 3;
-            let shapes = [shape(0, &mut random), shape(kind, &mut random)];
+            let shapes = [shape(0, random), shape(kind, random)];
             let forms = shapes.each_ref().map(Form::of);
             // Both upright before a common turn; the second may be upside down, and the box on any side.
-            let common = rotation_about(&random.vector().normalize(), random.within(0.0, 6.0));
+            let common = rotation_about(&vector(random).normalize(), random.within(0.0, 6.0));
             let over = match kind {
                 1 => random.within(0.0, 4.0).floor() * FRAC_PI_2,
                 _ => random.within(0.0, 2.0).floor() * PI,
@@ -334,7 +324,7 @@ mod tests {
                 * rotation_about(&Vec3::x(), over);
             let poses = [common, common * turn].map(|rotation| Pose {
                 rotation,
-                translation: random.vector(),
+                translation: vector(random),
             });
             let mut buffers = [PlacedBuffer::default(), PlacedBuffer::default()];
             let [buffer_a, buffer_b] = &mut buffers;
@@ -353,7 +343,7 @@ mod tests {
                 assert!(closest.distance < 1e-8);
                 met[kind] += 1;
                 // They still meet after any shorter move.
-                let way = random.vector().normalize() * (0.999 * closest.depth);
+                let way = vector(random).normalize() * (0.999 * closest.depth);
                 let shifted = Core::shifted(&a, way);
                 let moved = refined(&shifted, &core_b, start, size, limits, |_, _| None);
                 assert!(moved.lower == 0.0, "{closest:?} {moved:?}");
@@ -373,7 +363,7 @@ mod tests {
             for (core, point) in [(&core_a, &closest.points[0]), (&core_b, &closest.points[1])] {
                 // No direction has the point outside its set.
                 for _ in 0..50 {
-                    let way = random.vector().normalize();
+                    let way = vector(random).normalize();
                     assert!(way.dot(&(core.support(&way) - point)) > -1e-14);
                 }
             }

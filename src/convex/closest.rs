@@ -390,6 +390,8 @@ fn closest_of_lines(p: &Segment, q: &Segment) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
+    use cstk_scenes::Random;
+
     use super::*;
     use crate::primitive::convex_polygon;
 
@@ -404,18 +406,8 @@ mod tests {
         }
     }
 
-    struct Random(u64);
-
-    impl Random {
-        fn vector(&mut self) -> Vec3 {
-            Vec3::from([0; 3].map(|_| {
-                self.0 = self
-                    .0
-                    .wrapping_mul(6364136223846793005)
-                    .wrapping_add(1442695040888963407);
-                (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-            }))
-        }
+    fn vector(random: &mut Random) -> Vec3 {
+        Vec3::from(random.point(1.0))
     }
 
     type Triangle = [Vec3; 3];
@@ -436,10 +428,10 @@ mod tests {
     /// Triangles that cross by a depth still do after any shorter move; and some such moves, made a little longer, part them.
     #[test]
     fn crossing_triangles_overlap_by_their_depth() {
-        let mut random = Random(3);
+        let mut random = Random::new(3);
         let (mut crossings, mut tight) = (0, 0);
         for round in 0..20_000 {
-            let triangle = |random: &mut Random| [0; 3].map(|_| random.vector());
+            let triangle = |random: &mut Random| [0; 3].map(|_| vector(random));
             let a = triangle(&mut random);
             let mut b = triangle(&mut random);
             // Half of them nearly part along the edge from the first corner.
@@ -461,7 +453,12 @@ mod tests {
             }
             crossings += 1;
             let normals = placed.each_ref().map(|placed| placed.normal(0));
-            let ways = [random.vector(), random.vector(), normals[0], normals[1]];
+            let ways = [
+                vector(&mut random),
+                vector(&mut random),
+                normals[0],
+                normals[1],
+            ];
             for way in ways.into_iter().flat_map(|way| [way, -way]) {
                 let way = way.normalize();
                 let moved = |depth: f64| b.map(|corner| corner + way * depth);

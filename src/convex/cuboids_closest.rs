@@ -244,36 +244,26 @@ impl Search<'_> {
 mod tests {
     use std::f64::consts::FRAC_PI_2;
 
+    use cstk_scenes::Random;
+
     use super::*;
     use crate::convex::{PlacedBuffer, mode_of};
     use crate::pose::{Pose, rotation_about};
     use crate::primitive::{Form, block};
 
-    struct Random(u64);
+    fn vector(random: &mut Random) -> Vec3 {
+        Vec3::from(random.point(1.0))
+    }
 
-    impl Random {
-        fn within(&mut self, low: f64, high: f64) -> f64 {
-            self.0 = self
-                .0
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
-        }
+    fn half(random: &mut Random, spread: f64) -> Vec3 {
+        Vec3::from([0; 3].map(|_| 10f64.powf(random.within(-spread, 0.0))))
+    }
 
-        fn vector(&mut self) -> Vec3 {
-            Vec3::from([0; 3].map(|_| self.within(-1.0, 1.0)))
-        }
-
-        fn half(&mut self, spread: f64) -> Vec3 {
-            Vec3::from([0; 3].map(|_| 10f64.powf(self.within(-spread, 0.0))))
-        }
-
-        fn pose(&mut self, reach: f64) -> Pose {
-            let axis = self.vector().normalize();
-            Pose {
-                rotation: rotation_about(&axis, self.within(0.0, 6.0)),
-                translation: self.vector() * reach,
-            }
+    fn pose(random: &mut Random, reach: f64) -> Pose {
+        let axis = vector(random).normalize();
+        Pose {
+            rotation: rotation_about(&axis, random.within(0.0, 6.0)),
+            translation: vector(random) * reach,
         }
     }
 
@@ -347,15 +337,15 @@ mod tests {
     fn points_and_depths_prove_themselves() {
         let (mut apart, mut overlaps, mut all) = (0, 0, 0);
         for spread in [0.0, 0.5, 2.0] {
-            let mut random = Random(7);
+            let random = &mut Random::new(7);
             for _ in 0..3000 {
-                let pose = random.pose(1.5);
+                let pose = pose(random, 1.5);
                 let a = Block {
-                    half: random.half(spread),
+                    half: half(random, spread),
                     pose: Pose::identity(),
                 };
                 let b = Block {
-                    half: random.half(spread),
+                    half: half(random, spread),
                     pose,
                 };
                 all += 1;
@@ -369,7 +359,7 @@ mod tests {
                     overlaps += 1;
                     assert_eq!(on_a, on_b);
                     for _ in 0..5 {
-                        let step = random.vector().normalize() * (0.999 * found.depth);
+                        let step = vector(random).normalize() * (0.999 * found.depth);
                         let moved = Block {
                             half: b.half,
                             pose: Pose {
@@ -391,7 +381,7 @@ mod tests {
     /// turned by quarters.
     #[test]
     fn boxes_with_parallel_axes_are_found() {
-        let mut random = Random(11);
+        let random = &mut Random::new(11);
         let (mut modes, mut apart) = ([0; 6], 0);
         for round in 0..20_000 {
             let quarter = |random: &mut Random| random.within(0.0, 4.0).floor() * FRAC_PI_2;
@@ -408,10 +398,10 @@ mod tests {
                 _ => (v * 4.0).map(f64::round) / 4.0,
             };
             let mut block = || Block {
-                half: on_grid(random.half(1.0)).sup(&Vec3::repeat(0.1)),
+                half: on_grid(half(random, 1.0)).sup(&Vec3::repeat(0.1)),
                 pose: Pose {
-                    rotation: turn(&mut random),
-                    translation: on_grid(random.vector() * 1.5),
+                    rotation: turn(random),
+                    translation: on_grid(vector(random) * 1.5),
                 },
             };
             let (a, b) = (block(), block());

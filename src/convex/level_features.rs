@@ -107,6 +107,8 @@ fn exit(
 mod tests {
     use std::f64::consts::TAU;
 
+    use cstk_scenes::Random;
+
     use super::*;
     use crate::convex::polytope_distance::gap_of_primitives;
     use crate::convex::{
@@ -116,55 +118,43 @@ mod tests {
     use crate::pose::{Pose, rotation_about};
     use crate::primitive::{Convex, FeatureKind, Form, convex_polyhedron};
 
-    struct Random(u64);
+    fn vector(random: &mut Random) -> Vec3 {
+        Vec3::from(random.point(1.0))
+    }
 
-    impl Random {
-        fn within(&mut self, low: f64, high: f64) -> f64 {
-            self.0 = self
-                .0
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
+    /// An upright prism over a polygon, or a segment that lies flat.
+    fn prism(random: &mut Random, corners: usize) -> Convex {
+        let mut vertices = Vec::new();
+        let (radius, half) = (random.within(0.05, 0.5), random.within(0.05, 0.5));
+        for k in 0..corners {
+            let (y, x) = (TAU * k as f64 / corners as f64).sin_cos();
+            vertices.push(Vec3::new(radius * x, radius * y, half));
+            vertices.push(Vec3::new(radius * x, radius * y, -half));
         }
-
-        fn vector(&mut self) -> Vec3 {
-            Vec3::from([0; 3].map(|_| self.within(-1.0, 1.0)))
+        if corners == 2 {
+            vertices = vec![vertices[0], vertices[2]];
         }
-
-        /// An upright prism over a polygon, or a segment that lies flat.
-        fn prism(&mut self, corners: usize) -> Convex {
-            let mut vertices = Vec::new();
-            let (radius, half) = (self.within(0.05, 0.5), self.within(0.05, 0.5));
-            for k in 0..corners {
-                let (y, x) = (TAU * k as f64 / corners as f64).sin_cos();
-                vertices.push(Vec3::new(radius * x, radius * y, half));
-                vertices.push(Vec3::new(radius * x, radius * y, -half));
-            }
-            if corners == 2 {
-                vertices = vec![vertices[0], vertices[2]];
-            }
-            convex_polyhedron(&vertices).unwrap()
-        }
+        convex_polyhedron(&vertices).unwrap()
     }
 
     /// Prisms on parallel floors: closest points are on features that have a contact mode, in the sets, and proved by their direction.
     #[test]
     fn level_prisms_have_a_contact_mode() {
-        let mut random = Random(3);
+        let random = &mut Random::new(3);
         let mut modes = [0; 6];
         for round in 0..5000 {
             let shapes = [
-                random.prism([2, 3, 4, 6, 24][round % 5]),
-                random.prism([3, 5, 6, 24][round % 4]),
+                prism(random, [2, 3, 4, 6, 24][round % 5]),
+                prism(random, [3, 5, 6, 24][round % 4]),
             ];
             let forms = shapes.each_ref().map(Form::of);
             let common = match round % 3 {
                 0 => Pose::identity().rotation,
-                _ => rotation_about(&random.vector().normalize(), random.within(0.0, 6.0)),
+                _ => rotation_about(&vector(random).normalize(), random.within(0.0, 6.0)),
             };
             let poses = [0, 1].map(|_| Pose {
                 rotation: common * rotation_about(&Vec3::z(), random.within(0.0, TAU)),
-                translation: random.vector(),
+                translation: vector(random),
             });
             let mut buffers = [PlacedBuffer::default(), PlacedBuffer::default()];
             let [buffer_a, buffer_b] = &mut buffers;
@@ -195,7 +185,7 @@ mod tests {
             );
             for (placed, point) in placed.iter().zip(&closest.points) {
                 for _ in 0..50 {
-                    let way = random.vector().normalize();
+                    let way = vector(random).normalize();
                     let (low, high) = placed.extent_along(&way);
                     let here = way.dot(point);
                     assert!(here > low - 1e-14 && here < high + 1e-14);

@@ -190,36 +190,21 @@ fn feature_at(placed: &PlacedPrimitive, point: &Vec3, slack: f64) -> Feature {
 
 #[cfg(test)]
 mod tests {
+    use cstk_scenes::Random;
+
     use super::*;
     use crate::pose::{Pose, rotation_about};
     use crate::primitive::{Convex, cone, convex_polyhedron, cylinder, ellipsoid};
 
-    struct Random(u64);
+    fn vector(random: &mut Random) -> Vec3 {
+        Vec3::from(random.point(1.0))
+    }
 
-    impl Random {
-        fn unit(&mut self) -> f64 {
-            self.0 = self
-                .0
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            (self.0 >> 11) as f64 / (1u64 << 53) as f64
-        }
-        fn within(&mut self, low: f64, high: f64) -> f64 {
-            low + (high - low) * self.unit()
-        }
-        fn vector(&mut self) -> Vec3 {
-            Vec3::new(
-                self.within(-1.0, 1.0),
-                self.within(-1.0, 1.0),
-                self.within(-1.0, 1.0),
-            )
-        }
-        fn pose(&mut self, distance: f64) -> Pose {
-            let axis = self.vector().normalize();
-            Pose {
-                rotation: rotation_about(&axis, self.within(0.0, 6.0)),
-                translation: self.vector() * distance,
-            }
+    fn pose(random: &mut Random, distance: f64) -> Pose {
+        let axis = vector(random).normalize();
+        Pose {
+            rotation: rotation_about(&axis, random.within(0.0, 6.0)),
+            translation: vector(random) * distance,
         }
     }
 
@@ -231,10 +216,10 @@ mod tests {
             0 => cylinder(&at, a, b).unwrap(),
             1 => cone(&at, a, b).unwrap(),
             2 => ellipsoid(&at, &Vec3::new(a, b, c)).unwrap(),
-            3 => convex_polyhedron(&[random.vector()]).unwrap(),
-            4 => convex_polyhedron(&[random.vector(), random.vector()]).unwrap(),
-            5 => convex_polyhedron(&[random.vector(), random.vector(), random.vector()]).unwrap(),
-            _ => convex_polyhedron(&(0..10).map(|_| random.vector()).collect::<Vec<_>>()).unwrap(),
+            3 => convex_polyhedron(&[vector(random)]).unwrap(),
+            4 => convex_polyhedron(&[vector(random), vector(random)]).unwrap(),
+            5 => convex_polyhedron(&[vector(random), vector(random), vector(random)]).unwrap(),
+            _ => convex_polyhedron(&(0..10).map(|_| vector(random)).collect::<Vec<_>>()).unwrap(),
         }
     }
 
@@ -247,12 +232,12 @@ mod tests {
             .iter()
             .flat_map(|s| (0..21).map(move |k| (*s, k)))
         {
-            let mut random = Random(kinds as u64 + 1);
+            let random = &mut Random::new(kinds as u64 + 1);
             for _ in 0..400 {
-                let a = shape(&mut random, kinds % 3, spread);
-                let b = shape(&mut random, kinds / 3, spread);
+                let a = shape(random, kinds % 3, spread);
+                let b = shape(random, kinds / 3, spread);
                 let reach = random.within(0.3, 3.0);
-                let pose = random.pose(reach);
+                let pose = pose(random, reach);
                 let mut buffer = crate::convex::PlacedBuffer::default();
                 let (a, b) = (
                     PlacedPrimitive::at_home(&a, None),

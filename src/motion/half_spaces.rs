@@ -117,6 +117,8 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use cstk_scenes::Random;
+
     use super::*;
 
     fn half_space(row: &[f64], least: f64) -> HalfSpace {
@@ -146,13 +148,8 @@ mod tests {
     /// equality. Rows come in near copies, as contacts of finely meshed bodies do.
     #[test]
     fn random_projections_are_optimal() {
-        let mut state = 7u64;
-        let mut random = || {
-            state = state
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-        };
+        let mut random = Random::new(7);
+        let mut random = || random.within(-1.0, 1.0);
         let mut moved = 0;
         for _ in 0..2000 {
             let n = 1 + (random().abs() * 7.0) as usize;

@@ -211,6 +211,8 @@ impl Sorter<'_> {
 
 #[cfg(test)]
 mod tests {
+    use cstk_scenes::Random;
+
     use super::*;
     use crate::gjk::{PointCloud, Support};
 
@@ -233,13 +235,8 @@ mod tests {
 
     #[test]
     fn cells_know_the_farthest() {
-        let mut state = 1u64;
-        let mut random = || {
-            state = state
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-        };
+        let mut random = Random::new(1);
+        let mut random = || random.within(-1.0, 1.0);
         for count in [1, 2, 3, 20, 50, 500, 3000] {
             let flat = if count == 20 { 0.0 } else { 1.0 };
             let points: Vec<Vec3> = (0..count)

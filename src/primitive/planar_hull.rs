@@ -188,6 +188,8 @@ pub fn planar_ring(points: &[Vec3], normal: &Vec3, tolerance: f64) -> Vec<u32> {
 
 #[cfg(test)]
 mod tests {
+    use cstk_scenes::Random;
+
     use super::*;
 
     #[test]
@@ -210,13 +212,8 @@ mod tests {
     /// Points on a line up to rounding, in any direction and order: none is beyond the hull by more than the tolerance.
     #[test]
     fn no_end_of_a_line_is_lost() {
-        let mut bits = 7u64;
-        let mut below = |n: u64| {
-            bits = bits
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            (bits >> 33) % n
-        };
+        let mut random = Random::new(7);
+        let mut below = |n: u64| random.bits() % n;
         for case in 0..20_000 {
             // Mostly upright lines, turned by nothing, by rounding or by a little.
             let turn = [0.0, 1e-16, 1e-13, 1e-3, 0.7][case % 5];

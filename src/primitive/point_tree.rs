@@ -177,20 +177,21 @@ fn normal_of<'a>(points: impl Iterator<Item = &'a Vec3> + Clone) -> Vec3 {
 
 #[cfg(test)]
 mod tests {
+    use cstk_scenes::Random;
+
     use super::*;
     use crate::gjk::PointCloud;
 
-    fn random(state: &mut u64) -> f64 {
-        *state = state.wrapping_mul(6364136223846793005).wrapping_add(1);
-        (*state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+    fn vector(random: &mut Random) -> Vec3 {
+        Vec3::from(random.point(0.5))
     }
 
     /// On a sphere all points are corners of their hull; a query still visits only a few leaves for any number of points.
     #[test]
     fn few_points_are_looked_at() {
         for count in [1000, 10_000, 100_000] {
-            let mut state = 3;
-            let mut unit = || Vec3::from_fn(|_, _| random(&mut state)).normalize();
+            let random = &mut Random::new(3);
+            let mut unit = || vector(random).normalize();
             let points: Vec<Vec3> = (0..count).map(|_| unit()).collect();
             let tree = PointTree::new(&points);
             let asked = 200;
@@ -204,7 +205,7 @@ mod tests {
     /// Against a linear scan: the same point bit for bit, and of equal ones the first.
     #[test]
     fn the_farthest_point_is_that_of_all_points() {
-        let mut state = 7;
+        let random = &mut Random::new(7);
         for (count, size, away) in [
             (1, 1.0, 0.0),
             (33, 1e-9, 1e3),
@@ -214,7 +215,7 @@ mod tests {
             for shape in 0..4 {
                 let points: Vec<Vec3> = (0..count)
                     .map(|_| {
-                        let mut p = Vec3::from_fn(|_, _| random(&mut state));
+                        let mut p = vector(random);
                         match shape {
                             0 => p = p.try_normalize(0.0).unwrap_or_default(),
                             1 => p.z = 0.0,
@@ -227,7 +228,7 @@ mod tests {
                     .collect();
                 let tree = PointTree::new(&points);
                 for k in 0..60 {
-                    let mut direction = Vec3::from_fn(|_, _| random(&mut state));
+                    let mut direction = vector(random);
                     if k < 3 {
                         direction = Vec3::ith(k, -1.0);
                     }
