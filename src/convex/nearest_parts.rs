@@ -55,6 +55,9 @@ impl<'a> NearestParts<'a> {
             .map(|(along, value)| (along, -value));
         let on_b = self.parts[1].constraint();
         match (on_a, on_b) {
+            (Some(one), Some(other)) if are_parallel(&one.0, &other.0) => {
+                self.between_parallel_lines()
+            }
             (Some(one), Some(other)) => self.between_lines(&direction_on_both(one, other, guess)?),
             (Some(one), None) | (None, Some(one)) => self.turn_around(one, guess),
             (None, None) => self.turn_freely(guess),
@@ -66,13 +69,65 @@ impl<'a> NearestParts<'a> {
     fn over_face(&self, side: usize, guess: &Vec3) -> Option<Nearby> {
         let outwards = if side == 0 { -guess } else { *guess };
         let normal = self.parts[side].face_normal(&outwards)?;
-        let other = self.cores[1 - side].support(&-normal);
-        let foot = self.parts[side].foot(&normal, &other)?;
+        let (foot, other) = match self.level_over_face(side, &normal) {
+            Some(points) => points,
+            None => {
+                let other = self.cores[1 - side].support(&-normal);
+                (self.parts[side].foot(&normal, &other)?, other)
+            }
+        };
         let (direction, points) = if side == 0 {
             (-normal, [foot, other])
         } else {
             (normal, [other, foot])
         };
+        self.accept(&direction, points)
+    }
+
+    /// The points of a face and of the other part where that is a disc or a line parallel to the face, and over it: support points would be
+    /// any of it.
+    #[inline(always)]
+    fn level_over_face(&self, side: usize, normal: &Vec3) -> Option<(Vec3, Vec3)> {
+        let (face, other) = (&self.parts[side], &self.parts[1 - side]);
+        if let SurfacePart::Rim {
+            center,
+            axis,
+            radius,
+        } = other
+        {
+            if (axis + normal).amax() > PARALLEL_LINES {
+                return None;
+            }
+            let foot = face.nearest_in_face(normal, center)?;
+            let aside = foot - center;
+            let aside = aside - axis * axis.dot(&aside);
+            return (aside.norm() <= *radius).then_some((foot, center + aside));
+        }
+        let (along, half) = other.line(&-normal)?;
+        if along.dot(normal).abs() > PARALLEL_LINES {
+            return None;
+        }
+        let middle = other.support(&-normal).point;
+        let point = middle + along * face.place_over_face(normal, &middle, &along, half)?;
+        Some((face.foot(normal, &point)?, point))
+    }
+
+    /// The closest points of two lines that are parallel, edges or rulings of a tube, from the middle of what is beside one another.
+    fn between_parallel_lines(&self) -> Option<Nearby> {
+        let [a, b] = [self.parts[0].round_line()?, self.parts[1].round_line()?];
+        let way = a.center - b.center;
+        let along = a.along * a.along.dot(&b.along).signum();
+        let place = along.dot(&way);
+        let direction = (way - along * place).try_normalize(0.0)?;
+        let (low, high) = ((place - a.half).max(-b.half), (place + a.half).min(b.half));
+        if low > high {
+            return None;
+        }
+        let middle = 0.5 * (low + high);
+        let points = [
+            a.center + along * (middle - place) - direction * a.radius,
+            b.center + b.along * middle + direction * b.radius,
+        ];
         self.accept(&direction, points)
     }
 
@@ -203,6 +258,11 @@ impl<'a> NearestParts<'a> {
             points,
         })
     }
+}
+
+#[inline(always)]
+fn are_parallel(one: &Vec3, other: &Vec3) -> bool {
+    one.cross(other).norm_squared() <= PARALLEL_LINES * PARALLEL_LINES
 }
 
 /// The components of the vector from B's point to A's across a direction and along it.

@@ -190,6 +190,8 @@ fn feature_at(placed: &PlacedPrimitive, point: &Vec3, slack: f64) -> Feature {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use cstk_scenes::Random;
 
     use super::*;
@@ -223,6 +225,25 @@ mod tests {
         }
     }
 
+    /// The bounds of A as it is and B at a pose, which come together.
+    fn closest(a: &Convex, b: &Convex, pose: &Pose) -> RefinedBounds {
+        let mut buffer = crate::convex::PlacedBuffer::default();
+        let (a, b) = (
+            PlacedPrimitive::at_home(a, None),
+            buffer.place(b, None, pose),
+        );
+        let pair = Precision {
+            size: 1.0 + pose.translation.norm(),
+            error: 0.0,
+            planar: false,
+        };
+        let start = a.middle() - b.middle();
+        let found = refined_cores(&a, &b, start, Vec3::zeros(), &pair);
+        let gap = (found.upper - found.lower) / pair.size;
+        assert!((-1e-14..=5e-12).contains(&gap), "{gap:e} {found:?}");
+        found
+    }
+
     /// The bounds check each other: the upper one comes from two points of the sets, the lower one from a direction. 20 000
     /// pairs of each kind gave the numbers at [`tolerance::SMOOTH_ERROR`].
     #[test]
@@ -237,24 +258,48 @@ mod tests {
                 let a = shape(random, kinds % 3, spread);
                 let b = shape(random, kinds / 3, spread);
                 let reach = random.within(0.3, 3.0);
-                let pose = pose(random, reach);
-                let mut buffer = crate::convex::PlacedBuffer::default();
-                let (a, b) = (
-                    PlacedPrimitive::at_home(&a, None),
-                    buffer.place(&b, None, &pose),
-                );
-                let pair = Precision {
-                    size: 1.0 + pose.translation.norm(),
-                    error: 0.0,
-                    planar: false,
-                };
-                let start = a.middle() - b.middle();
-                let found = refined_cores(&a, &b, start, Vec3::zeros(), &pair);
-                let gap = (found.upper - found.lower) / pair.size;
-                assert!((-1e-14..=5e-12).contains(&gap), "{gap:e} {found:?}");
+                let found = closest(&a, &b, &pose(random, reach));
                 overlaps += usize::from(found.upper == 0.0);
             }
         }
         assert!(overlaps > 1000, "{overlaps}");
+    }
+    /// The same of what stands upright or is turned by quarters: surfaces are level, and lines parallel. Two steps are enough in the mean.
+    #[test]
+    fn bounds_of_level_shapes_come_together_soon() {
+        let random = &mut Random::new(4);
+        let (mut steps, mut apart) = (0, 0);
+        for round in 0..8000 {
+            let (kind, other) = ([0, 1][round % 2], round / 2 % 4);
+            let a = shape(random, kind, 1.0);
+            let b = match other {
+                0 | 1 => shape(random, other, 1.0),
+                2 => {
+                    let end = Vec3::z() * random.within(0.1, 1.0);
+                    convex_polyhedron(&[end, -end]).unwrap()
+                }
+                _ => {
+                    let (radius, half) = (random.within(0.1, 1.0), random.within(0.1, 1.0));
+                    let corners = (0..12).map(|k| {
+                        let (y, x) = f64::sin_cos(f64::from(k / 2) * TAU / 6.0);
+                        let height = if k % 2 == 0 { half } else { -half };
+                        Vec3::new(radius * x, radius * y, height)
+                    });
+                    convex_polyhedron(&corners.collect::<Vec<_>>()).unwrap()
+                }
+            };
+            let over = random.within(0.0, 4.0).floor() * TAU / 4.0;
+            let pose = Pose {
+                rotation: rotation_about(&Vec3::z(), random.within(0.0, TAU))
+                    * rotation_about(&Vec3::x(), if round % 3 == 0 { over } else { 0.0 }),
+                translation: vector(random) * 2.0,
+            };
+            let found = closest(&a, &b, &pose);
+            if found.lower > 1e-3 {
+                apart += 1;
+                steps += found.iterations;
+            }
+        }
+        assert!(apart > 4000 && steps < 2 * apart, "{steps} of {apart}");
     }
 }

@@ -1,5 +1,6 @@
 //! The parts of convex surfaces that can hold closest points: vertices, edges, rims, rulings, ellipsoids, faces.
 
+use super::closest::Segment;
 use super::core::Core;
 use crate::pose::{Mat3, Vec3, turned, turned_back};
 use crate::primitive::{HIGH_END, LOW_END, SmoothKind};
@@ -281,6 +282,100 @@ impl SurfacePart {
             _ => None,
         }
     }
+
+    /// The point of that face nearest to a point, both seen along the normal.
+    pub fn nearest_in_face(&self, normal: &Vec3, point: &Vec3) -> Option<Vec3> {
+        if let Some(foot) = self.foot(normal, point) {
+            return Some(foot);
+        }
+        match self {
+            Self::Facet([a, b, c]) => {
+                let sides = [(*a, *b), (*b, *c), (*c, *a)].map(Segment::new);
+                let flat = point - normal * normal.dot(&(point - a));
+                let feet = sides.map(|side| side.at(side.nearest_parameter(&flat)));
+                let distance = |foot: &Vec3| (foot - flat).norm_squared();
+                feet.into_iter()
+                    .min_by(|one, other| distance(one).total_cmp(&distance(other)))
+            }
+            Self::Rim { center, radius, .. } => {
+                let way = point - center;
+                let flat = way - normal * normal.dot(&way);
+                Some(center + flat * (radius / flat.norm()))
+            }
+            _ => None,
+        }
+    }
+
+    /// A place on a line parallel to that face where it is over it, if there is one: at most `half` from the line's middle.
+    pub fn place_over_face(
+        &self,
+        normal: &Vec3,
+        middle: &Vec3,
+        along: &Vec3,
+        half: f64,
+    ) -> Option<f64> {
+        match self {
+            Self::Facet([a, b, c]) => {
+                let up = (b - a).cross(&(c - a));
+                let (mut low, mut high) = (-half, half);
+                for (from, to) in [(a, b), (b, c), (c, a)] {
+                    let inwards = up.cross(&(to - from));
+                    let (inside, rise) = (inwards.dot(&(middle - from)), inwards.dot(along));
+                    if rise > 0.0 {
+                        low = low.max(-inside / rise);
+                    } else if rise < 0.0 {
+                        high = high.min(-inside / rise);
+                    } else if inside < 0.0 {
+                        return None;
+                    }
+                }
+                (low <= high).then_some(0.5 * (low + high))
+            }
+            Self::Rim { center, radius, .. } => {
+                let place = along.dot(&(center - middle)).clamp(-half, half);
+                let way = middle + along * place - center;
+                let flat = way - normal * normal.dot(&way);
+                (flat.norm() <= *radius).then_some(place)
+            }
+            _ => None,
+        }
+    }
+
+    /// An edge, or the rulings of a tube around its axis.
+    pub fn round_line(&self) -> Option<RoundLine> {
+        match *self {
+            Self::Edge {
+                middle,
+                along,
+                half,
+            } => Some(RoundLine {
+                center: middle,
+                along,
+                half,
+                radius: 0.0,
+            }),
+            Self::Tube {
+                center,
+                axis,
+                radius,
+                half,
+            } => Some(RoundLine {
+                center,
+                along: axis,
+                half,
+                radius,
+            }),
+            _ => None,
+        }
+    }
+}
+
+/// All points of a surface at a distance from a segment.
+pub struct RoundLine {
+    pub center: Vec3,
+    pub along: Vec3,
+    pub half: f64,
+    pub radius: f64,
 }
 
 /// A disc counts as the nearest feature, not only its rim, when the cosine between its normal and the direction exceeds this.
