@@ -172,7 +172,15 @@ impl ContactList<'_> {
         }
         let sides_s = on_s.sides();
         for (edge_r, segment_r) in &sides_r {
+            // Most sides lie on one side of the other's line.
+            let across = self.normal.cross(segment_r.along());
+            let beyond = slack * across.norm();
+            let [start, _] = segment_r.ends();
             for (edge_s, segment_s) in &sides_s {
+                let [from, to] = segment_s.ends().map(|end| across.dot(&(end - start)));
+                if from.min(to) > beyond || from.max(to) < -beyond {
+                    continue;
+                }
                 let (t, u) = closest_parameters(segment_r, segment_s);
                 let inside = |x: f64| x > 0.0 && x < 1.0;
                 let points = [segment_r.at(t), segment_s.at(u)];
@@ -197,6 +205,8 @@ fn has_lone_extreme(placed: &PlacedPrimitive, direction: &Vec3, slack: f64) -> b
 struct SupportFeature<'a> {
     placed: PlacedPrimitive<'a>,
     ring: Vec<u32>,
+    /// Of three and more corners, where each is, and the way inwards across the side from it to the next, as long as that side.
+    sides: Vec<(Vec3, Vec3)>,
     normal: Vec3,
     feature: Feature,
 }
@@ -207,15 +217,26 @@ impl<'a> SupportFeature<'a> {
         let level: Vec<u32> = (0..placed.vertex_count() as u32)
             .filter(|&i| direction.dot(&placed.vertex(i)) >= farthest - slack)
             .collect();
-        // Common case: a single corner.
-        let ring = if level.len() == 1 {
-            level
+        let (ring, feature) = if level.len() == 1 {
+            let corner = Feature::vertex(level[0]);
+            (level, corner)
+        } else if let Some((face, ring)) = whole_face(placed, &level, direction, slack) {
+            (ring, face)
         } else {
-            outline(placed, &level, direction, slack)
+            let ring = outline(placed, &level, direction, slack);
+            let feature = feature_of(placed, &ring);
+            (ring, feature)
         };
-        let feature = feature_of(placed, &ring);
+        let corner = |i: usize| placed.vertex(ring[i % ring.len()]);
+        let sides = match ring.len() {
+            1 | 2 => Vec::new(),
+            n => (0..n)
+                .map(|i| (corner(i), direction.cross(&(corner(i + 1) - corner(i)))))
+                .collect(),
+        };
         Self {
             placed: *placed,
+            sides,
             ring,
             normal: *direction,
             feature,
@@ -240,17 +261,15 @@ impl<'a> SupportFeature<'a> {
             .collect()
     }
 
-    /// Whether the feature, seen along its normal, covers the point. A single corner covers only itself.
+    /// Whether the feature, seen along its normal, covers the point to within `slack`. A single corner covers only itself.
     fn covers(&self, point: &Vec3, slack: f64) -> bool {
         let to_foot = point - self.foot(point);
         match self.ring.len() {
             1 | 2 => (to_foot - self.normal * self.normal.dot(&to_foot)).norm() <= slack,
-            n => (0..n).all(|i| {
-                let a = self.placed.vertex(self.ring[i]);
-                let b = self.placed.vertex(self.ring[(i + 1) % n]);
-                let edge = b - a;
-                edge.cross(&(point - a)).dot(&self.normal) >= -slack * edge.norm()
-            }),
+            _ => self
+                .sides
+                .iter()
+                .all(|(corner, inwards)| inwards.dot(&(point - corner)) >= -slack * inwards.norm()),
         }
     }
 
@@ -281,6 +300,41 @@ fn outline(placed: &PlacedPrimitive, level: &[u32], direction: &Vec3, slack: f64
     let flat: Vec<_> = points.map(|p| Vector2::new(x.dot(&p), y.dot(&p))).collect();
     let corners = convex_hull_2d(&flat, slack);
     corners.iter().map(|&i| level[i as usize]).collect()
+}
+
+/// The face that has these level vertices for its corners, with them in the order of [`outline`]; `None` where it has others, or a corner
+/// that is hardly one.
+fn whole_face(
+    placed: &PlacedPrimitive,
+    level: &[u32],
+    direction: &Vec3,
+    slack: f64,
+) -> Option<(Feature, Vec<u32>)> {
+    let face = placed.feature_of(level.get(..3)?)?;
+    if face.kind != FeatureKind::Face {
+        return None;
+    }
+    let ring = &placed.shape.faces[face.index as usize].vertices;
+    if ring.len() != level.len() || !level.iter().all(|i| ring.contains(i)) {
+        return None;
+    }
+    let (x, y) = plane_axes(direction);
+    let corner = |i: usize| placed.vertex(ring[i % ring.len()]);
+    let mut first = (Vector2::repeat(f64::INFINITY), 0);
+    for i in 0..ring.len() {
+        let [before, here, next] = [corner(i + ring.len() - 1), corner(i), corner(i + 1)];
+        let side = next - before;
+        if direction.dot(&(here - before).cross(&side)) <= slack * side.norm() {
+            return None;
+        }
+        let flat = Vector2::new(x.dot(&here), y.dot(&here));
+        if (flat.x, flat.y) < (first.0.x, first.0.y) {
+            first = (flat, i);
+        }
+    }
+    let mut ring = ring.to_vec();
+    ring.rotate_left(first.1);
+    Some((face, ring))
 }
 
 fn edge_between(placed: &PlacedPrimitive, ends: [u32; 2]) -> Option<u32> {
