@@ -206,7 +206,9 @@ static void files(const fixture *f) {
     } wrong[] = {
         {"", CSTK_ERROR_PARSE, file},
         {"<robot>", CSTK_ERROR_PARSE, file},
-        {"<!DOCTYPE r [<!ENTITY a 'aaaa'>]><robot>&a;</robot>", CSTK_ERROR_PARSE, file},
+        {"<robot>\n<link name='a'>\n</link>\n", CSTK_ERROR_PARSE, "line 3"},
+        {"<robot>\n<link name='a'", CSTK_ERROR_PARSE, "line 2"},
+        {"\n<!DOCTYPE r [<!ENTITY a 'aaaa'>]><robot>&a;</robot>", CSTK_ERROR_PARSE, "line 2"},
         {"<sdf/>", CSTK_ERROR_PARSE, "<sdf>"},
         {"<robot/>", CSTK_ERROR_EMPTY, "no link"},
         {"<robot><link name='link0'/></robot>", CSTK_ERROR_INVALID_ARGUMENT, "link0"},

@@ -17,7 +17,18 @@ const MAX_NAMESPACES: usize = 1 << 8;
 /// Parses a document. A document type, and so entities, are refused: the formats read here have none.
 pub fn parse(text: &str) -> Result<Document<'_>> {
     require_parseable(text)?;
-    Document::parse(text).map_err(|e| Error::new(ErrorKind::Parse, e.to_string()))
+    Document::parse(text).map_err(|fault| Error::new(ErrorKind::Parse, with_line(text, &fault)))
+}
+
+/// What the parser found wrong. Of what is missing at the end, and of document types, it does not say where.
+fn with_line(text: &str, fault: &roxmltree::Error) -> String {
+    use roxmltree::Error::{DtdDetected, NoRootNode, UnclosedRootNode, UnexpectedEndOfStream};
+    let place = match fault {
+        DtdDetected => text.find("<!DOCTYPE").unwrap_or(0),
+        NoRootNode | UnclosedRootNode | UnexpectedEndOfStream => text.trim_end().len(),
+        _ => return fault.to_string(),
+    };
+    format!("line {}: {fault}", line_of(text.as_bytes(), place))
 }
 
 /// Refuses texts for which the parser's time or memory would be out of proportion to their length.
@@ -132,4 +143,25 @@ pub fn list<T: std::str::FromStr>(node: Node, what: &str, text: &str) -> Result<
         })?);
     }
     Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_fault_names_its_line() {
+        let whole = "<robot>\n<link name='a'>\n</link></robot>";
+        assert!(parse(whole).is_ok());
+        for (text, line) in [
+            ("", "line 1"),
+            ("<robot>\n<link>\n</link>\n\n", "line 3"),
+            ("<robot>\n<link", "line 2"),
+            ("\n\n<!DOCTYPE robot><robot/>", "line 3"),
+            ("<robot>\n</link>", " 2:1"),
+        ] {
+            let message = parse(text).unwrap_err().message;
+            assert!(message.contains(line), "{text:?}: {message}");
+        }
+    }
 }
