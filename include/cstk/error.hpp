@@ -4,8 +4,10 @@
 
 #include <cstk.h>
 
+#include <exception>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace cstk {
 
@@ -23,11 +25,29 @@ private:
     cstk_status status_;
 };
 
-/// Throws unless the status is CSTK_OK.
+namespace detail {
+
+/* What a function of a Predicate threw last on this thread: no exception may pass through C, so
+ * that it is thrown again after the call. */
+inline std::exception_ptr &thrown_by_function() {
+    static thread_local std::exception_ptr thrown;
+    return thrown;
+}
+
+} // namespace detail
+
+/// Throws unless the status is CSTK_OK: an Error, or what a function of yours threw.
 inline void check(cstk_status status) {
-    if (status != CSTK_OK) {
-        throw Error(status);
+    if (status == CSTK_OK) {
+        return;
     }
+    if (status == CSTK_ERROR_CALLBACK_FAILED) {
+        if (const std::exception_ptr thrown =
+                std::exchange(detail::thrown_by_function(), nullptr)) {
+            std::rethrow_exception(thrown);
+        }
+    }
+    throw Error(status);
 }
 
 } // namespace cstk

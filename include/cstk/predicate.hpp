@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <vector>
 
@@ -21,7 +22,8 @@ namespace cstk {
 }
 
 /// A set by functions of yours; see cstk_predicate. Threads may call them at once. What they throw
-/// ends the query with CSTK_ERROR_CALLBACK_FAILED.
+/// ends the query, and is thrown by it; where another thread called them, as those of a batch do,
+/// the query throws an Error of CSTK_ERROR_CALLBACK_FAILED.
 struct Predicate {
     using Configuration = Span<double>;
 
@@ -42,6 +44,7 @@ struct PredicateCalls {
         try {
             return action() ? 0 : 1;
         } catch (...) {
+            thrown_by_function() = std::current_exception();
             return 1;
         }
     }
