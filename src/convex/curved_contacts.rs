@@ -6,9 +6,10 @@ use super::core::{Core, is_smooth};
 use super::distance::PrimitiveDistance;
 use super::placed::{PlacedPrimitive, Precision};
 use super::polytope_contacts::{first_polytope_contact, polytope_contacts};
-use super::smooth_distance::refined_cores;
+use super::smooth_distance::{feature_at, refined_cores};
 use crate::gjk::Support;
 use crate::pose::Vec3;
+use crate::primitive::FeatureKind;
 use crate::tolerance;
 
 /// The contacts of a pair of which at least one is curved. They are exact as long as the cores are apart, however deep the
@@ -88,20 +89,32 @@ fn smooth_contact(
     }
     let least = tolerance::MIN_SMOOTH_NORMAL_DISTANCE * precision.size;
     let is_apart = closest.distance > least && direction != Vec3::zeros();
+    let mut features = closest.features;
     let (normal, gap, points) = if is_apart {
         (direction, closest.distance, closest.points)
     } else if are_dwarfed(r, s) {
         return None;
     } else {
-        smooth_touch(r, s, &closest, direction, precision)?
+        let touch = smooth_touch(r, s, &closest, direction, precision)?;
+        // The points are others than the closest ones.
+        for (side, placed) in [r, s].into_iter().enumerate() {
+            if placed.shape.smooth().is_none() {
+                let slack = tolerance::ON_FEATURE * precision.size;
+                let here = feature_at(placed, &touch.2[side], slack);
+                if here.kind != FeatureKind::Interior {
+                    features[side] = here;
+                }
+            }
+        }
+        touch
     };
     Some(Contact {
         points,
         normal,
         distance: gap.max(0.0),
         gap,
-        mode: mode_of(closest.features)?,
-        features: closest.features,
+        mode: mode_of(features)?,
+        features,
     })
 }
 

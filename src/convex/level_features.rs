@@ -21,7 +21,8 @@ pub fn at_end(sides: [&PlacedPrimitive; 2], found: Closest, error: f64) -> Optio
     match features.map(|feature| feature.kind) {
         [Face, Face] => {
             let along = first_side(sides[0], features[0])?;
-            let exits = [0, 1].map(|side| exit(sides[side], features[side], &points[0], &along));
+            let exits =
+                [0, 1].map(|side| exit(sides[side], features[side], &points[0], &along, error));
             let side = usize::from(exits[1]?.0 < exits[0]?.0);
             let (length, edge) = exits[side]?;
             let mut features = features;
@@ -49,10 +50,10 @@ fn along_edge(
     let [_, end] = segment.ends();
     let along = segment.along().try_normalize(0.0)?;
     let left = along.dot(&(end - point));
-    let (length, crossed) = exit(sides[other], features[other], point, &along)?;
+    let (length, crossed) = exit(sides[other], features[other], point, &along, error)?;
+    let normal = sides[other].normal(features[other].index as usize);
     let mut points = [end; 2];
     if left <= length + error {
-        let normal = sides[other].normal(features[other].index as usize);
         let ring = &sides[other].shape.faces[features[other].index as usize].vertices;
         let height = normal.dot(&(end - sides[other].vertex(ring[0])));
         points[other] = end - normal * height;
@@ -64,7 +65,10 @@ fn along_edge(
         (points[side], points[other]) = (segment.at(s), across.at(t));
         features[other] = crossed;
     }
-    Some(Closest::between(points, features))
+    // Of sides of very different lengths rounding may have moved the points aside.
+    let way = points[0] - points[1];
+    let aside = way - normal * normal.dot(&way);
+    (aside.norm() <= error).then(|| Closest::between(points, features))
 }
 
 /// The direction of a face's first side.
@@ -74,12 +78,14 @@ fn first_side(placed: &PlacedPrimitive, face: Feature) -> Option<Vec3> {
     (end - start).try_normalize(0.0)
 }
 
-/// How far a way in a face's plane, from a point over the face, leads to one of its sides, and the edge there.
+/// How far a way in a face's plane, from a point over the face, leads to one of its sides, and the edge there; `None` where the point is
+/// more than `error` beside the face.
 fn exit(
     placed: &PlacedPrimitive,
     face: Feature,
     point: &Vec3,
     way: &Vec3,
+    error: f64,
 ) -> Option<(f64, Feature)> {
     let ring = &placed.shape.faces[face.index as usize].vertices;
     let normal = placed.normal(face.index as usize);
@@ -88,11 +94,15 @@ fn exit(
         let ends = [ring[i], ring[(i + 1) % ring.len()]];
         let (start, end) = placed.edge_ends(ends);
         let inwards = normal.cross(&(end - start));
+        let inside = inwards.dot(&(point - start));
+        if inside < -error * inwards.norm() {
+            return None;
+        }
         let slope = -inwards.dot(way);
         if slope <= PARALLEL_SIDE * inwards.norm() {
             continue;
         }
-        let length = (inwards.dot(&(point - start)) / slope).max(0.0);
+        let length = (inside / slope).max(0.0);
         if nearest.is_none_or(|(least, _)| length < least) {
             nearest = Some((length, ends));
         }

@@ -170,7 +170,7 @@ fn holding_feature(
 }
 
 /// The first feature of a polytope near a point of it: vertices first, then edges, then faces.
-fn feature_at(placed: &PlacedPrimitive, point: &Vec3, slack: f64) -> Feature {
+pub fn feature_at(placed: &PlacedPrimitive, point: &Vec3, slack: f64) -> Feature {
     let near = |v: &Vec3| (v - point).norm() <= slack;
     if let Some(i) = placed.vertices().iter().position(near) {
         return Feature::vertex(i as u32);

@@ -421,3 +421,37 @@ fn support_functions_of_the_caller() {
     assert_eq!(refused(|d| Ok(d * 1e70)).kind, ErrorKind::InvalidArgument);
     assert!(builder.is_empty());
 }
+
+/// A box over the end of a cylinder by next to nothing: the contact's point is on the feature of the box that it names.
+#[test]
+fn boxes_that_touch_a_cylinder_name_the_feature_there() {
+    let cylinder = body(|builder| builder.add_cylinder(&Pose::identity(), 1.0, 0.5, 0));
+    let half = Vec3::new(0.375, 0.125, 0.0625);
+    let block = body(|builder| builder.add_box(&Pose::identity(), &half, 0));
+    let mut random = Random::new(8);
+    let mut asked = 0;
+    for round in 0..400 {
+        let gap = 10f64.powi(-12 + round % 7);
+        let (x, y) = (random.within(-1.2, 1.2), random.within(-1.2, 1.2));
+        let pose = Pose {
+            rotation: rotation_about(&Vec3::z(), random.within(0.0, 6.0)),
+            translation: Vec3::new(x, y, 0.5 + half.z + gap),
+        };
+        let found = distance(&cylinder, &block, &pose);
+        let Some(contact) = found.contact.filter(|_| found.distance < 1e-5) else {
+            continue;
+        };
+        let seen = pose.inverse().transform_point(&contact.points[1]);
+        let bounds = (0..3)
+            .filter(|&k| (seen[k].abs() - half[k]).abs() < 1e-6)
+            .count();
+        let expected = match contact.features[1].kind {
+            FeatureKind::Face => 1,
+            FeatureKind::Edge => 2,
+            _ => 3,
+        };
+        assert_eq!(bounds, expected, "{seen:?} {contact:?}");
+        asked += 1;
+    }
+    assert!(asked > 200, "{asked}");
+}
