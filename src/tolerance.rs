@@ -64,6 +64,9 @@ pub const NORMAL_ERROR: f64 = 1e-12;
 /// direction that certifies it is within sqrt(2 CERTIFIED_GAP / 1e-6) = 8e-5 of the normal.
 pub const MIN_SMOOTH_NORMAL_DISTANCE: f64 = 1e-6;
 
+/// Axes of boxes and cylinders are tried as parallel where the sine of their angle is at most this: a few times what rounding leaves of it.
+pub const PARALLEL_AXES: f64 = 64.0 * EPSILON;
+
 /// Two directions of edges whose cross product is shorter than this are parallel: the product's rounding of some EPSILON would
 /// turn a normal by more than 1e-10.
 pub const PARALLEL_EDGES: f64 = 1e-6;

@@ -12,9 +12,6 @@ use crate::pose::{Vec3, turned, turned_back};
 use crate::primitive::{Feature, SmoothKind};
 use crate::tolerance;
 
-/// Axes are tried as parallel where the sine of their angle is at most this: a few times what rounding leaves of it.
-const PARALLEL_AXES: f64 = 64.0 * tolerance::EPSILON;
-
 /// The closest points of two cores with parallel axes, the first of a cylinder, and the unit direction from the second to the first that
 /// proves them; zero where they meet. `size` is no less than any coordinate of the two.
 #[inline(always)]
@@ -47,7 +44,7 @@ pub fn beside_cylinder(
         cylinder.center + cylinder.axis * along.place + outwards * (place - away),
         prism.foot + prism.axis * along.place_other + outwards * place_other,
     ];
-    let depth = along.overlap.min(-gap) - 4.0 * PARALLEL_AXES * size;
+    let depth = along.overlap.min(-gap) - 4.0 * tolerance::PARALLEL_AXES * size;
     if depth > tolerance::JUST_INSIDE * size {
         let features = [Feature::surface(), prism.inside()];
         let found = Closest {
@@ -140,7 +137,9 @@ impl Section {
         let seen = turned_back(&cuboid.axes, &placed.turned_back(cylinder));
         let off = seen.abs();
         let others = [off.y.max(off.z), off.z.max(off.x), off.x.max(off.y)];
-        let across = others.iter().position(|off| *off <= PARALLEL_AXES)?;
+        let across = others
+            .iter()
+            .position(|off| *off <= tolerance::PARALLEL_AXES)?;
         let axis = placed.turned(&(cuboid.axes.column(across) * seen[across].signum()));
         Some((Self::Rectangle { across }, axis))
     }
@@ -150,7 +149,7 @@ impl Section {
 #[inline(always)]
 fn parallel(axis: Vec3, other: &Vec3) -> Option<Vec3> {
     let axis = axis * axis.dot(other).signum();
-    ((axis - other).amax() <= PARALLEL_AXES).then_some(axis)
+    ((axis - other).amax() <= tolerance::PARALLEL_AXES).then_some(axis)
 }
 
 /// What is beside the cylinder.

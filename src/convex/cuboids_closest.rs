@@ -1,5 +1,5 @@
 //! The closest points of two boxes by the separating axis test: of the axes the one with the largest gap proves the distance
-//! where the nearest features are a corner and a face, or two edges. It does for most pairs; GJK finds the others.
+//! where the nearest features are a corner and a face, or two edges. Boxes with parallel axes have a closed form; GJK finds the others.
 
 use super::closest::{Closest, Segment, closest_parameters};
 use super::cuboid_axes::{CuboidAxes, EdgeGap, GAP_ERROR};

@@ -300,16 +300,13 @@ fn perpendicular_to(direction: &Vec3) -> (Vec3, Vec3) {
     (x, direction.cross(&x))
 }
 
-/// The unit direction that satisfies two constraints; of two solutions the one nearer to a guess. `None` where the constraints
-/// are parallel or have no solution.
+/// The unit direction that satisfies two constraints that are not parallel; of two solutions the one nearer to a guess. `None` where there
+/// is none.
 #[inline(always)]
 fn direction_on_both(one: (Vec3, f64), other: (Vec3, f64), guess: &Vec3) -> Option<Vec3> {
     let ((g, s), (h, t)) = (one, other);
     let across = g.cross(&h);
     let square = across.norm_squared();
-    if square <= PARALLEL_LINES * PARALLEL_LINES {
-        return None;
-    }
     // The component in the plane of the two axes, then the one across it.
     let in_plane = h.cross(&across) * (s / square) + across.cross(&g) * (t / square);
     let rest = 1.0 - in_plane.norm_squared();

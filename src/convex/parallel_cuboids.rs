@@ -11,9 +11,6 @@ use crate::lanes::each3;
 use crate::pose::{Vec3, turned_back};
 use crate::tolerance;
 
-/// Axes are tried as parallel where the sine of their angle is at most this: a few times what rounding leaves of it.
-const PARALLEL_AXES: f64 = 64.0 * tolerance::EPSILON;
-
 /// The ends of a rectangle's sides.
 const CORNERS: [Vector2<f64>; 4] = [
     Vector2::new(-1.0, -1.0),
@@ -62,7 +59,7 @@ fn parallel_axes(axes: &CuboidAxes) -> Option<(usize, usize)> {
     for i in 0..3 {
         let row = each3(|j| axes.turn[(i, j)].abs());
         for j in 0..3 {
-            if row[(j + 1) % 3].max(row[(j + 2) % 3]) <= PARALLEL_AXES {
+            if row[(j + 1) % 3].max(row[(j + 2) % 3]) <= tolerance::PARALLEL_AXES {
                 return Some((i, j));
             }
         }
