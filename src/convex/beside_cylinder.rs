@@ -20,10 +20,9 @@ pub fn beside_cylinder(
     other: &PlacedPrimitive,
     size: f64,
 ) -> Option<(Closest, Vec3)> {
-    let (sizes, axis) = cylinder_of(on)?;
-    let section = Section::along(&axis, core, other)?;
-    let cylinder = Cylinder::new(on, sizes, axis);
-    let prism = Prism::new(section, &cylinder, core, other)?;
+    let cylinder = Cylinder::of(on)?;
+    let section = Section::along(&cylinder.axis, core, other)?;
+    let prism = Prism::new(section, &cylinder, other)?;
     let along = Along::of(&cylinder, &prism);
     let away = prism.way.norm();
     let outwards = if away > 0.0 {
@@ -65,7 +64,7 @@ pub fn beside_cylinder(
 }
 
 pub fn is_cylinder(core: &Core) -> bool {
-    cylinder_of(core).is_some()
+    Cylinder::of(core).is_some()
 }
 
 /// A cylinder, in the common frame.
@@ -78,26 +77,20 @@ struct Cylinder {
 
 impl Cylinder {
     #[inline(always)]
-    fn new(core: &Core, [radius, half]: [f64; 2], axis: Vec3) -> Self {
-        Self {
-            center: core.vertex(0),
-            axis,
-            radius,
-            half,
+    fn of(core: &Core) -> Option<Self> {
+        let smooth = core.smooth()?;
+        match *smooth.kind {
+            SmoothKind::Cylinder {
+                radius,
+                half_length,
+            } => Some(Self {
+                center: smooth.center,
+                axis: smooth.axes.column(2).into(),
+                radius,
+                half: half_length,
+            }),
+            _ => None,
         }
-    }
-}
-
-/// The radius and half the length of a cylinder, and its axis in the common frame.
-#[inline(always)]
-fn cylinder_of(core: &Core) -> Option<([f64; 2], Vec3)> {
-    let (smooth, axes) = core.smooth()?;
-    match smooth.kind {
-        SmoothKind::Cylinder {
-            radius,
-            half_length,
-        } => Some(([radius, half_length], axes.column(2).into())),
-        _ => None,
     }
 }
 
@@ -105,25 +98,33 @@ fn cylinder_of(core: &Core) -> Option<([f64; 2], Vec3)> {
 #[derive(Clone, Copy)]
 enum Section {
     Disc {
+        center: Vec3,
         radius: f64,
         half: f64,
     },
     /// Of a segment; whether its own direction is the axis.
-    Point {
-        is_along: bool,
-    },
+    Point { is_along: bool },
     /// Across this axis of a box.
-    Rectangle {
-        across: usize,
-    },
+    Rectangle { across: usize },
 }
 
 impl Section {
     /// With the axis in the direction of the cylinder's; `None` where that is not parallel to one.
     #[inline(always)]
     fn along(cylinder: &Vec3, core: &Core, placed: &PlacedPrimitive) -> Option<(Self, Vec3)> {
-        if let Some(([radius, half], axis)) = cylinder_of(core) {
-            return Some((Self::Disc { radius, half }, parallel(axis, cylinder)?));
+        if let Some(Cylinder {
+            center,
+            axis,
+            radius,
+            half,
+        }) = Cylinder::of(core)
+        {
+            let section = Self::Disc {
+                center,
+                radius,
+                half,
+            };
+            return Some((section, parallel(axis, cylinder)?));
         }
         if core.smooth().is_some() {
             return None;
@@ -172,11 +173,14 @@ impl Prism {
     fn new(
         (section, axis): (Section, Vec3),
         cylinder: &Cylinder,
-        core: &Core,
         placed: &PlacedPrimitive,
     ) -> Option<Self> {
         let (center, half, radius) = match section {
-            Section::Disc { radius, half } => (core.vertex(0), half, radius),
+            Section::Disc {
+                center,
+                radius,
+                half,
+            } => (center, half, radius),
             Section::Point { .. } => {
                 let (start, end) = (placed.vertex(0), placed.vertex(1));
                 ((start + end) * 0.5, 0.5 * (end - start).norm(), 0.0)

@@ -284,6 +284,7 @@ fn crossing_depth(
 }
 
 /// A segment with its direction.
+#[derive(Clone, Copy, Debug)]
 pub struct Segment {
     start: Vec3,
     end: Vec3,

@@ -77,7 +77,8 @@ pub fn way_from_cuboid(seen: &Vec3, cuboid: &Cuboid) -> Option<Vec3> {
 ///
 /// The squared distance is convex in t. Its derivative is increasing, and linear between the crossings of the segment's line
 /// with the planes of the box's faces. It is evaluated at all crossings at once, and solved in the interval where it is 0.
-fn nearest_parameter(start: &Vec3, along: &Vec3, half: &Vec3) -> f64 {
+#[inline(always)]
+pub fn nearest_parameter(start: &Vec3, along: &Vec3, half: &Vec3) -> f64 {
     let crossing = |k: usize, bound: f64| {
         let t = (bound - start[k]) / along[k];
         // A segment parallel to the faces has no crossing.

@@ -18,6 +18,7 @@ mod distance;
 mod extreme_vertex;
 mod gauss_arcs;
 mod level_features;
+mod likely_parts;
 mod nearest_edges;
 mod nearest_parts;
 mod outline;

@@ -3,7 +3,7 @@
 
 use super::core::Core;
 use super::surface_part::{PartSupport, SurfacePart};
-use crate::gjk::{Nearby, Support};
+use crate::gjk::{Names, Nearby, Support};
 use crate::pose::Vec3;
 
 /// At most 10 Newton steps; then GJK goes on by itself.
@@ -18,6 +18,7 @@ const PARALLEL_LINES: f64 = 1e-9;
 /// Two cores, their nearest surface parts, and the gap between upper and lower bound at which a distance is accepted.
 pub struct NearestParts<'a> {
     cores: [&'a Core<'a>; 2],
+    names: [Names; 2],
     parts: [SurfacePart; 2],
     accepted: f64,
 }
@@ -25,10 +26,11 @@ pub struct NearestParts<'a> {
 impl<'a> NearestParts<'a> {
     /// Takes the surface parts between the named extreme points of the two cores; `None` where a core has no such part.
     #[inline(always)]
-    pub fn new(cores: [&'a Core<'a>; 2], names: [&[u32]; 2], accepted: f64) -> Option<Self> {
-        let part = |side: usize| SurfacePart::between(cores[side], names[side]);
+    pub fn new(cores: [&'a Core<'a>; 2], names: [Names; 2], accepted: f64) -> Option<Self> {
+        let part = |side: usize| SurfacePart::between(cores[side], names[side].as_slice());
         Some(Self {
             cores,
+            names,
             parts: [part(0)?, part(1)?],
             accepted,
         })
@@ -42,11 +44,7 @@ impl<'a> NearestParts<'a> {
                 return Some(found);
             }
         }
-        if self
-            .parts
-            .iter()
-            .any(|part| matches!(part, SurfacePart::Facet(_)))
-        {
+        if self.parts.iter().any(SurfacePart::is_flat) {
             return None;
         }
         // Constraints on the direction from B to A; A's own direction is the opposite.
@@ -69,11 +67,14 @@ impl<'a> NearestParts<'a> {
     fn over_face(&self, side: usize, guess: &Vec3) -> Option<Nearby> {
         let outwards = if side == 0 { -guess } else { *guess };
         let normal = self.parts[side].face_normal(&outwards)?;
+        let mut names = self.names;
         let (foot, other) = match self.level_over_face(side, &normal) {
             Some(points) => points,
             None => {
-                let other = self.cores[1 - side].support(&-normal);
-                (self.parts[side].foot(&normal, &other)?, other)
+                // Not always on the part that was taken to be nearest.
+                let other = self.cores[1 - side].extreme(&-normal);
+                names[1 - side] = Names::one(other.name);
+                (self.parts[side].foot(&normal, &other.point)?, other.point)
             }
         };
         let (direction, points) = if side == 0 {
@@ -81,7 +82,8 @@ impl<'a> NearestParts<'a> {
         } else {
             (normal, [other, foot])
         };
-        self.accept(&direction, points)
+        let found = self.accept(&direction, points)?;
+        Some(Nearby { names, ..found })
     }
 
     /// The points of a face and of the other part where that is a disc or a line parallel to the face, and over it: support points would be
@@ -256,6 +258,7 @@ impl<'a> NearestParts<'a> {
             lower,
             direction: *direction,
             points,
+            names: self.names,
         })
     }
 }

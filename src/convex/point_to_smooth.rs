@@ -2,19 +2,18 @@
 
 use super::closest::Closest;
 use super::core::Core;
-use crate::pose::{Vec3, turned, turned_back};
+use crate::pose::{Vec3, turned};
 use crate::primitive::{Feature, SmoothKind};
 
 /// The closest points of a point and a cylinder or cone; `None` if they are at most `least` apart, or for other cores.
 pub fn point_to_smooth(point: &Vec3, core: &Core, least: f64) -> Option<Closest> {
-    let (smooth, axes) = core.smooth()?;
-    let local = turned_back(axes, &(point - core.vertex(0)));
-    let way = way_from_smooth(&local, &smooth.kind)?;
+    let smooth = core.smooth()?;
+    let way = way_from_smooth(&smooth.seen(point), smooth.kind)?;
     let distance = way.norm();
     (distance > least).then(|| Closest {
         distance,
         ..Closest::between(
-            [*point, point - turned(axes, &way)],
+            [*point, point - turned(&smooth.axes, &way)],
             [Feature::vertex(0), Feature::surface()],
         )
     })
@@ -43,7 +42,8 @@ pub fn way_from_smooth(local: &Vec3, kind: &SmoothKind) -> Option<Vec3> {
 }
 
 /// The point of a cone's profile nearest to a point outside, as distance from the axis and height; `None` for a point inside.
-fn on_cone(away: f64, along: f64, radius: f64, height: f64) -> Option<(f64, f64)> {
+#[inline(always)]
+pub fn on_cone(away: f64, along: f64, radius: f64, height: f64) -> Option<(f64, f64)> {
     let half = 0.5 * height;
     if along <= -half && away <= radius {
         return Some((away, -half));

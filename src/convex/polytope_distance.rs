@@ -266,10 +266,8 @@ fn between_corners(
     b: &PlacedPrimitive,
     nearest: &NearestCorners,
 ) -> Option<Closest> {
-    let feature = |placed: &PlacedPrimitive, side: usize| {
-        let (names, len) = nearest.names.of(side);
-        placed.feature_of(&names[..len])
-    };
+    let feature =
+        |placed: &PlacedPrimitive, side: usize| placed.feature_of(nearest.names[side].as_slice());
     let features = [feature(a, 0)?, feature(b, 1)?];
     let found = Closest::between(nearest.points, features);
     // The foot of a vertex in a face is more accurate than a combination of corners.

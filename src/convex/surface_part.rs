@@ -2,8 +2,9 @@
 
 use super::closest::Segment;
 use super::core::Core;
+use super::polytope_distance::cuboid;
 use crate::pose::{Mat3, Vec3, turned, turned_back};
-use crate::primitive::{HIGH_END, LOW_END, SmoothKind};
+use crate::primitive::{Feature, FeatureKind, HIGH_END, LOW_END, SmoothKind};
 
 /// A part of a surface on which the support point stays while the direction turns a little; in the common frame.
 #[derive(Clone, Copy, Debug)]
@@ -15,6 +16,11 @@ pub enum SurfacePart {
         half: f64,
     },
     Facet([Vec3; 3]),
+    /// A face of a box: a corner, and the two edges from it.
+    Rectangle {
+        corner: Vec3,
+        sides: [Vec3; 2],
+    },
     /// The boundary circle of a disc that is a face of the set; the axis is the disc's outward normal.
     Rim {
         center: Vec3,
@@ -56,26 +62,12 @@ impl SurfacePart {
     /// The part of a core between the extreme points of these names; `None` for a support function of the caller's.
     #[inline(always)]
     pub fn between(core: &Core, names: &[u32]) -> Option<Self> {
-        let Some((smooth, axes)) = core.smooth() else {
-            return Some(match *names {
-                [a] => Self::Vertex(core.vertex(a)),
-                [a, b] => {
-                    let (a, b) = (core.vertex(a), core.vertex(b));
-                    let between = b - a;
-                    let length = between.norm();
-                    Self::Edge {
-                        middle: (a + b) * 0.5,
-                        along: between / length,
-                        half: 0.5 * length,
-                    }
-                }
-                [a, b, c] => Self::Facet([a, b, c].map(|i| core.vertex(i))),
-                _ => return None,
-            });
+        let Some(smooth) = core.smooth() else {
+            return Self::between_vertices(core, names);
         };
-        let (center, axis) = (core.vertex(0), Vec3::from(axes.column(2)));
+        let (center, axis) = (smooth.center, Vec3::from(smooth.axes.column(2)));
         let all_are = |name: u32| names.iter().all(|other| *other == name);
-        Some(match smooth.kind {
+        Some(match *smooth.kind {
             SmoothKind::Cylinder {
                 radius,
                 half_length,
@@ -118,11 +110,50 @@ impl SurfacePart {
             }
             SmoothKind::Ellipsoid { semi_axes } => Self::Ellipsoid {
                 center,
-                axes: *axes,
+                axes: smooth.axes,
                 squares: semi_axes.component_mul(&semi_axes),
             },
             SmoothKind::Function(_) => return None,
         })
+    }
+
+    /// The same of a polytope: of a box a whole face, of others the triangle between three vertices.
+    #[inline(always)]
+    fn between_vertices(core: &Core, names: &[u32]) -> Option<Self> {
+        if let ([_, _, ..], Some(cuboid)) = (names, cuboid(core.placed()))
+            && let Some(Feature {
+                kind: FeatureKind::Face,
+                index,
+            }) = cuboid.feature_of(names)
+        {
+            let ring = &core.placed().shape.faces[index as usize].vertices;
+            let [corner, next, last] = [0, 1, 3].map(|i| core.vertex(ring[i]));
+            return Some(Self::Rectangle {
+                corner,
+                sides: [next - corner, last - corner],
+            });
+        }
+        Some(match *names {
+            [a] => Self::Vertex(core.vertex(a)),
+            [a, b] => {
+                let (a, b) = (core.vertex(a), core.vertex(b));
+                let between = b - a;
+                let length = between.norm();
+                Self::Edge {
+                    middle: (a + b) * 0.5,
+                    along: between / length,
+                    half: 0.5 * length,
+                }
+            }
+            [a, b, c] => Self::Facet([a, b, c].map(|i| core.vertex(i))),
+            _ => return None,
+        })
+    }
+
+    /// Whether closest points on the part are not found by turning a direction: it has but one.
+    #[inline(always)]
+    pub fn is_flat(&self) -> bool {
+        matches!(self, Self::Facet(_) | Self::Rectangle { .. })
     }
 
     /// The support point along a direction.
@@ -145,6 +176,7 @@ impl SurfacePart {
             Self::Vertex(point) => at(*point),
             Self::Edge { middle, .. } => at(*middle),
             Self::Facet([a, ..]) => at(*a),
+            Self::Rectangle { corner, .. } => at(*corner),
             Self::Rim {
                 center,
                 axis,
@@ -224,7 +256,9 @@ impl SurfacePart {
             tangent * (radius / at.length * tangent.dot(by))
         };
         match self {
-            Self::Vertex(_) | Self::Edge { .. } | Self::Facet(_) => Vec3::zeros(),
+            Self::Vertex(_) | Self::Edge { .. } | Self::Facet(_) | Self::Rectangle { .. } => {
+                Vec3::zeros()
+            }
             Self::Rim { axis, radius, .. } | Self::Tube { axis, radius, .. } => {
                 around(axis, *radius)
             }
@@ -250,14 +284,11 @@ impl SurfacePart {
     #[inline(always)]
     pub fn face_normal(&self, direction: &Vec3) -> Option<Vec3> {
         match self {
-            Self::Facet([a, b, c]) => {
-                let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
-                Some(if normal.dot(direction) < 0.0 {
-                    -normal
-                } else {
-                    normal
-                })
-            }
+            Self::Facet([a, b, c]) => turned_towards(&(b - a).cross(&(c - a)), direction),
+            Self::Rectangle {
+                sides: [one, other],
+                ..
+            } => turned_towards(&one.cross(other), direction),
             Self::Rim { axis, .. } => (axis.dot(direction) > MIN_FACE_COSINE).then_some(*axis),
             _ => None,
         }
@@ -274,6 +305,11 @@ impl SurfacePart {
                 // A combination of the corners, so that it is a point of the set even for a needle.
                 let foot = (a * of_a + b * of_b + c * of_c) / (of_a + of_b + of_c);
                 (of_a >= 0.0 && of_b >= 0.0 && of_c >= 0.0).then_some(foot)
+            }
+            Self::Rectangle { corner, sides } => {
+                let [x, y] = sides.map(|side| side.dot(&(point - corner)) / side.norm_squared());
+                let is_inside = (0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y);
+                is_inside.then(|| corner + sides[0] * x + sides[1] * y)
             }
             Self::Rim { center, radius, .. } => {
                 let foot = point - normal * normal.dot(&(point - center));
@@ -297,6 +333,13 @@ impl SurfacePart {
                 feet.into_iter()
                     .min_by(|one, other| distance(one).total_cmp(&distance(other)))
             }
+            Self::Rectangle { corner, sides } => {
+                let [x, y] = sides.map(|side| {
+                    let place = side.dot(&(point - corner)) / side.norm_squared();
+                    side * place.clamp(0.0, 1.0)
+                });
+                Some(corner + x + y)
+            }
             Self::Rim { center, radius, .. } => {
                 let way = point - center;
                 let flat = way - normal * normal.dot(&way);
@@ -317,19 +360,23 @@ impl SurfacePart {
         match self {
             Self::Facet([a, b, c]) => {
                 let up = (b - a).cross(&(c - a));
-                let (mut low, mut high) = (-half, half);
-                for (from, to) in [(a, b), (b, c), (c, a)] {
+                let sides = [(a, b), (b, c), (c, a)].map(|(from, to)| {
                     let inwards = up.cross(&(to - from));
-                    let (inside, rise) = (inwards.dot(&(middle - from)), inwards.dot(along));
-                    if rise > 0.0 {
-                        low = low.max(-inside / rise);
-                    } else if rise < 0.0 {
-                        high = high.min(-inside / rise);
-                    } else if inside < 0.0 {
-                        return None;
-                    }
-                }
-                (low <= high).then_some(0.5 * (low + high))
+                    (inwards.dot(&(middle - from)), inwards.dot(along))
+                });
+                middle_of_positive(sides, half)
+            }
+            Self::Rectangle { corner, sides } => {
+                let from = middle - corner;
+                let [(x, x_rise, x_end), (y, y_rise, y_end)] =
+                    sides.map(|side| (side.dot(&from), side.dot(along), side.norm_squared()));
+                let sides = [
+                    (x, x_rise),
+                    (x_end - x, -x_rise),
+                    (y, y_rise),
+                    (y_end - y, -y_rise),
+                ];
+                middle_of_positive(sides, half)
             }
             Self::Rim { center, radius, .. } => {
                 let place = along.dot(&(center - middle)).clamp(-half, half);
@@ -378,8 +425,35 @@ pub struct RoundLine {
     pub radius: f64,
 }
 
-/// A disc counts as the nearest feature, not only its rim, when the cosine between its normal and the direction exceeds this.
-const MIN_FACE_COSINE: f64 = 0.999;
+/// A disc counts as the nearest feature, not only its rim, when the cosine between its normal and the direction exceeds this. A larger
+/// value finds less of what is over a disc at the first try, a smaller one tries discs in vain.
+const MIN_FACE_COSINE: f64 = 0.9;
+
+/// A normal of any length and sign, as a unit vector on the side of a direction.
+#[inline(always)]
+fn turned_towards(normal: &Vec3, direction: &Vec3) -> Option<Vec3> {
+    let normal = normal.try_normalize(0.0)?;
+    Some(if normal.dot(direction) < 0.0 {
+        -normal
+    } else {
+        normal
+    })
+}
+
+/// The middle of the places from -half to half at which no linear function is negative; each is given by its value at 0 and its rise.
+fn middle_of_positive<const N: usize>(functions: [(f64, f64); N], half: f64) -> Option<f64> {
+    let (mut low, mut high) = (-half, half);
+    for (value, rise) in functions {
+        if rise > 0.0 {
+            low = low.max(-value / rise);
+        } else if rise < 0.0 {
+            high = high.min(-value / rise);
+        } else if value < 0.0 {
+            return None;
+        }
+    }
+    (low <= high).then_some(0.5 * (low + high))
+}
 
 /// The component of a direction perpendicular to an axis: normalized, and its length.
 #[inline(always)]

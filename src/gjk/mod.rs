@@ -12,7 +12,7 @@ use self::meeting::beginning;
 pub use self::meeting::{Proved, meeting};
 pub use self::refined::{Nearby, RefinedBounds, refined};
 use self::simplex::{Corner, OriginPosition, Simplex};
-pub use self::simplex::{CornerNames, NearestCorners};
+pub use self::simplex::{Names, NearestCorners};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 use crate::tolerance;

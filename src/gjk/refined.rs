@@ -6,7 +6,7 @@
 use std::ops::ControlFlow;
 
 use super::meeting::{Beginning, beginning};
-use super::simplex::{Corner, CornerNames, OriginPosition, Simplex};
+use super::simplex::{Corner, Names, OriginPosition, Simplex};
 use super::{DistanceLimits, Support, VECTOR_ROUNDING};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
@@ -26,7 +26,7 @@ pub struct RefinedBounds {
     /// A point of A and one of B.
     pub points: [Vec3; 2],
     /// The names of the extreme points that the closest points lie between, if `finish` computed these.
-    pub names: Option<CornerNames>,
+    pub names: Option<[Names; 2]>,
     pub iterations: u32,
 }
 
@@ -38,6 +38,8 @@ pub struct Nearby {
     pub direction: Vec3,
     /// A point of A and one of B.
     pub points: [Vec3; 2],
+    /// The names of the extreme points that these lie between.
+    pub names: [Names; 2],
 }
 
 /// At most 400 steps, restarts included. A smaller value leaves more pairs with bounds that have not met.
@@ -75,7 +77,7 @@ pub fn refined<A: Support, B: Support>(
     start: Vec3,
     size: f64,
     limits: DistanceLimits,
-    finish: impl Fn(&CornerNames, &Vec3) -> Option<Nearby>,
+    finish: impl Fn(&[Names; 2], &Vec3) -> Option<Nearby>,
 ) -> RefinedBounds {
     let limits = DistanceLimits {
         cutoff: limits.cutoff.max(tolerance::SUPPORT_ERROR * size),
@@ -125,12 +127,26 @@ pub fn refined<A: Support, B: Support>(
 }
 
 impl RefinedBounds {
+    /// The bounds of closest points.
+    #[inline(always)]
+    pub fn of_nearby(near: Nearby) -> Self {
+        Self {
+            lower: near.lower,
+            direction: near.direction,
+            upper: (near.points[0] - near.points[1]).norm(),
+            depth: 0.0,
+            points: near.points,
+            names: Some(near.names),
+            iterations: 0,
+        }
+    }
+
     /// Tries `finish`, if it is given, with the names of the simplex's corners, and takes its result. Returns whether there is one.
     fn finish(
         &mut self,
         simplex: &Simplex,
         direction: &Vec3,
-        finish: Option<&impl Fn(&CornerNames, &Vec3) -> Option<Nearby>>,
+        finish: Option<&impl Fn(&[Names; 2], &Vec3) -> Option<Nearby>>,
     ) -> bool {
         let (Some(finish), Some(names)) = (finish, simplex.names()) else {
             return false;
@@ -138,11 +154,10 @@ impl RefinedBounds {
         let Some(near) = finish(&names, direction) else {
             return false;
         };
-        self.lower = near.lower;
-        self.direction = near.direction;
-        self.upper = (near.points[0] - near.points[1]).norm();
-        self.points = near.points;
-        self.names = Some(names);
+        *self = Self {
+            iterations: self.iterations,
+            ..Self::of_nearby(near)
+        };
         true
     }
 }
@@ -173,7 +188,7 @@ impl<A, B, F> Work for Refinement<'_, A, B, F>
 where
     A: Support,
     B: Support,
-    F: Fn(&CornerNames, &Vec3) -> Option<Nearby>,
+    F: Fn(&[Names; 2], &Vec3) -> Option<Nearby>,
 {
     type Output = RefinedBounds;
 
@@ -281,7 +296,7 @@ impl Iteration {
     where
         A: Support,
         B: Support,
-        F: Fn(&CornerNames, &Vec3) -> Option<Nearby>,
+        F: Fn(&[Names; 2], &Vec3) -> Option<Nearby>,
     {
         self.found.iterations += 1;
         let length = self.v.norm();

@@ -37,28 +37,56 @@ pub struct NearestCorners {
     pub points: [Vec3; 2],
     /// The vector from B's point to A's.
     pub difference: Vec3,
-    pub names: CornerNames,
+    pub names: [Names; 2],
 }
 
-/// The names of the extreme points of two sets that the closest points lie between.
+/// The distinct names of one to three extreme points of a set.
 #[derive(Clone, Copy, Debug)]
-pub struct CornerNames {
-    names: [[u32; 3]; 2],
+pub struct Names {
+    names: [u32; 3],
     len: usize,
 }
 
-impl CornerNames {
-    /// The distinct names on side 0 (A) or 1 (B), and their count, one to three.
-    pub fn of(&self, side: usize) -> ([u32; 3], usize) {
-        let mut names = self.names[side];
-        let mut len = 1;
-        for i in 1..self.len {
-            if !names[..len].contains(&names[i]) {
-                names[len] = names[i];
-                len += 1;
+impl Names {
+    #[inline(always)]
+    pub fn one(name: u32) -> Self {
+        Self {
+            names: [name; 3],
+            len: 1,
+        }
+    }
+
+    /// Two names that differ.
+    #[inline(always)]
+    pub fn two(one: u32, other: u32) -> Self {
+        Self {
+            names: [one, other, other],
+            len: 2,
+        }
+    }
+
+    /// Three names that differ.
+    #[inline(always)]
+    pub fn three(names: [u32; 3]) -> Self {
+        Self { names, len: 3 }
+    }
+
+    /// The distinct ones of up to three names, at least one.
+    #[inline(always)]
+    fn distinct(all: &[u32]) -> Self {
+        let mut found = Self::one(all[0]);
+        for name in &all[1..] {
+            if !found.as_slice().contains(name) {
+                found.names[found.len] = *name;
+                found.len += 1;
             }
         }
-        (names, len)
+        found
+    }
+
+    #[inline(always)]
+    pub fn as_slice(&self) -> &[u32] {
+        &self.names[..self.len]
     }
 }
 
@@ -238,13 +266,12 @@ impl Simplex {
         })
     }
 
-    /// The names of one to three corners.
-    pub fn names(&self) -> Option<CornerNames> {
+    /// The names of one to three corners, on A and on B.
+    pub fn names(&self) -> Option<[Names; 2]> {
         let names = |side: usize| [0, 1, 2].map(|i| self.corners[i].names[side]);
-        (1..=3).contains(&self.len).then(|| CornerNames {
-            names: [names(0), names(1)],
-            len: self.len,
-        })
+        (1..=3)
+            .contains(&self.len)
+            .then(|| [0, 1].map(|side| Names::distinct(&names(side)[..self.len])))
     }
 
     #[inline(always)]

@@ -455,3 +455,37 @@ fn boxes_that_touch_a_cylinder_name_the_feature_there() {
     }
     assert!(asked > 200, "{asked}");
 }
+
+/// A capsule over the end of a cylinder, level or nearly so: its end is named only where the contact is at that end.
+#[test]
+fn capsules_over_a_cylinder_name_the_feature_there() {
+    let cylinder = body(|builder| builder.add_cylinder(&Pose::identity(), 1.0, 0.5, 0));
+    let end = Vec3::new(0.375, 0.0, 0.0);
+    let capsule = body(|builder| builder.add_capsule(&-end, &end, 0.125, 0));
+    let mut random = Random::new(9);
+    let mut ends = 0;
+    for round in 0..2000 {
+        let tilt = [0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3][round % 6] * random.within(-1.0, 1.0);
+        let (x, y) = (random.within(-1.4, 1.4), random.within(-1.4, 1.4));
+        let pose = Pose {
+            rotation: rotation_about(&Vec3::z(), random.within(0.0, 6.0))
+                * rotation_about(&Vec3::y(), tilt),
+            translation: Vec3::new(x, y, random.within(0.7, 1.5)),
+        };
+        let found = distance(&cylinder, &capsule, &pose);
+        let Some(contact) = found.contact else {
+            continue;
+        };
+        let seen = pose.inverse().transform_point(&contact.points[1]);
+        if contact.features[1].kind == FeatureKind::Vertex {
+            let named = if contact.features[1].index == 0 {
+                -end
+            } else {
+                end
+            };
+            assert!((seen - named).norm() < 0.125 + 1e-6, "{seen:?} {contact:?}");
+            ends += 1;
+        }
+    }
+    assert!(ends > 200, "{ends}");
+}

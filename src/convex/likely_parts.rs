@@ -1,0 +1,271 @@
+//! The parts of two surfaces that probably hold the closest points, without a search. A point, a segment or a box inside each core has
+//! closest points in closed form; from these, nearest points of one core to the other's find the parts in a few steps. Where the guess is
+//! right, Newton's method ends at the distance. On the way most cores that meet are seen to: a point of one is deep inside the other.
+
+use super::closest::{Segment, closest_parameters};
+use super::core::{Core, SmoothCore};
+use super::cuboid_distance::{nearest_parameter, way_from_cuboid};
+use super::nearest_parts::NearestParts;
+use super::placed::PlacedPrimitive;
+use super::point_to_smooth::on_cone;
+use super::polytope_distance::cuboid;
+use crate::gjk::{DistanceLimits, Names, Nearby, Support};
+use crate::lanes::{Instructions, Work};
+use crate::pose::{Vec3, turned, turned_back};
+use crate::primitive::{Cuboid, FeatureKind, HIGH_END, LOW_END, SmoothKind};
+
+/// How often each core's point nearest to the other's is taken. With 1 the guess is right for a tenth fewer pairs, with 3 for a twentieth
+/// more, which takes longer than it spares.
+const ROUNDS: usize = 2;
+
+/// Two cores, and when what is known of them is enough.
+pub struct LikelyParts<'a> {
+    pub cores: [&'a Core<'a>; 2],
+    /// How far apart the bounds of a distance may be.
+    pub accepted: f64,
+    /// A gap of no more than this proves nothing.
+    pub least: f64,
+    /// How deep a point has to be inside to prove that the cores meet.
+    pub deep: f64,
+    /// The distance is not asked for where it is known to be at most `enough`, or more than `cutoff`.
+    pub limits: DistanceLimits,
+}
+
+/// What a guess has proved.
+pub enum Proved {
+    /// The cores are farther apart than the cutoff.
+    Beyond {
+        /// A unit direction from B to A, and the gap along it.
+        direction: Vec3,
+        gap: f64,
+    },
+    /// The closest points.
+    Near(Nearby),
+    /// A point of A and one of B that are near enough to each other.
+    Within([Vec3; 2]),
+    /// The cores meet: a point of both, and a ball around it that is in one of them.
+    Meet { point: Vec3, depth: f64 },
+}
+
+impl Work for LikelyParts<'_> {
+    type Output = Option<Proved>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> Option<Proved> {
+        let [a, b] = self.cores;
+        let inner = [Inner::of(a)?, Inner::of(b)?];
+        let (mut points, first) = between_inner(&inner)?;
+        let mut names = [Names::one(0); 2];
+        let has_box = inner.iter().any(|one| matches!(one, Inner::Cuboid(..)));
+        for step in 0..2 * ROUNDS + usize::from(has_box) {
+            let side = (first + step) % 2;
+            let point = points[1 - side];
+            match inner[side].nearest(&point) {
+                Nearest::Unknown => (),
+                Nearest::At(there, on) => (points[side], names[side]) = (there, on),
+                Nearest::Inside(depth) => {
+                    return (depth > self.deep).then_some(Proved::Meet { point, depth });
+                }
+            }
+        }
+        let way = points[0] - points[1];
+        if way.norm() <= self.limits.enough {
+            return Some(Proved::Within(points));
+        }
+        let direction = way.try_normalize(0.0)?;
+        let supports = [a.support(&-direction), b.support(&direction)];
+        let gap = direction.dot(&(supports[0] - supports[1]));
+        if gap > self.limits.cutoff {
+            return Some(Proved::Beyond { direction, gap });
+        }
+        if gap <= self.least {
+            for side in 0..2 {
+                let point = supports[1 - side];
+                if let Nearest::Inside(depth) = inner[side].nearest(&point)
+                    && depth > self.deep
+                {
+                    return Some(Proved::Meet { point, depth });
+                }
+            }
+            return None;
+        }
+        for side in 0..2 {
+            // The other's point was its centre until now.
+            if inner[1 - side].is_ellipsoid()
+                && let Nearest::At(_, on) = inner[side].nearest(&supports[1 - side])
+            {
+                names[side] = on;
+            }
+        }
+        let parts = NearestParts::new(self.cores, names, self.accepted)?;
+        Some(Proved::Near(parts.solve(&direction)?))
+    }
+}
+
+/// A core, with what is inside it and near to all of its surface: an axis, a centre, or the whole.
+enum Inner<'a> {
+    /// A hull of one or two vertices.
+    Segment(Segment),
+    Cuboid(&'a PlacedPrimitive<'a>, &'a Cuboid),
+    /// A solid of revolution and its axis, from the low end to the high one.
+    Round(&'a SmoothCore<'a>, Segment),
+    Ellipsoid(&'a SmoothCore<'a>, Vec3),
+}
+
+/// The point of a core nearest to another point, and the names of the part that it is on.
+enum Nearest {
+    At(Vec3, Names),
+    /// The other point is inside, at least this deep.
+    Inside(f64),
+    /// Not in closed form.
+    Unknown,
+}
+
+impl<'a> Inner<'a> {
+    /// `None` for hulls that are no boxes, and for the caller's support functions.
+    #[inline(always)]
+    fn of(core: &'a Core) -> Option<Self> {
+        let Some(smooth) = core.smooth() else {
+            return Some(match core.placed().vertex_count() {
+                1 => Self::Segment(Segment::point(core.vertex(0))),
+                2 => Self::Segment(Segment::new((core.vertex(0), core.vertex(1)))),
+                _ => Self::Cuboid(core.placed(), cuboid(core.placed())?),
+            });
+        };
+        let half = match *smooth.kind {
+            SmoothKind::Cylinder { half_length, .. } => half_length,
+            SmoothKind::Cone { height, .. } => 0.5 * height,
+            SmoothKind::Ellipsoid { semi_axes } => return Some(Self::Ellipsoid(smooth, semi_axes)),
+            SmoothKind::Function(_) => return None,
+        };
+        let up = smooth.axes.column(2) * half;
+        let axis = Segment::new((smooth.center - up, smooth.center + up));
+        Some(Self::Round(smooth, axis))
+    }
+
+    #[inline(always)]
+    fn is_ellipsoid(&self) -> bool {
+        matches!(self, Self::Ellipsoid(..))
+    }
+
+    #[inline(always)]
+    fn nearest(&self, point: &Vec3) -> Nearest {
+        match self {
+            Self::Segment(segment) => {
+                let place = segment.nearest_parameter(point);
+                let names = if place <= 0.0 {
+                    Names::one(0)
+                } else if place >= 1.0 {
+                    Names::one(1)
+                } else {
+                    Names::two(0, 1)
+                };
+                Nearest::At(segment.at(place), names)
+            }
+            Self::Cuboid(placed, cuboid) => nearest_of_cuboid(point, placed, cuboid),
+            Self::Round(smooth, _) => nearest_of_round(point, smooth),
+            Self::Ellipsoid(smooth, semi_axes) => {
+                let scaled = smooth.seen(point).component_div(semi_axes).norm();
+                if scaled < 1.0 {
+                    Nearest::Inside((1.0 - scaled) * semi_axes.min())
+                } else {
+                    Nearest::Unknown
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn nearest_of_cuboid(point: &Vec3, placed: &PlacedPrimitive, cuboid: &Cuboid) -> Nearest {
+    let seen = cuboid.seen(&placed.seen(point));
+    let Some(way) = way_from_cuboid(&seen, cuboid) else {
+        return Nearest::Inside((cuboid.half - seen.abs()).min());
+    };
+    let feature = cuboid.feature_towards(&seen);
+    let shape = placed.shape;
+    let names = match feature.kind {
+        FeatureKind::Vertex => Names::one(feature.index),
+        FeatureKind::Edge => {
+            let [start, end] = shape.edges[feature.index as usize];
+            Names::two(start, end)
+        }
+        _ => {
+            let ring = &shape.faces[feature.index as usize].vertices;
+            Names::three([ring[0], ring[1], ring[2]])
+        }
+    };
+    let way = placed.turned(&turned(&cuboid.axes, &way));
+    Nearest::At(point - way, names)
+}
+
+#[inline(always)]
+fn nearest_of_round(point: &Vec3, smooth: &SmoothCore) -> Nearest {
+    let local = smooth.seen(point);
+    let away = (local.x * local.x + local.y * local.y).sqrt();
+    let (away_there, along_there, half) = match *smooth.kind {
+        SmoothKind::Cylinder {
+            radius,
+            half_length,
+        } => {
+            let depth = (radius - away).min(half_length - local.z.abs());
+            if depth >= 0.0 {
+                return Nearest::Inside(depth);
+            }
+            let along = local.z.clamp(-half_length, half_length);
+            (away.min(radius), along, half_length)
+        }
+        SmoothKind::Cone { radius, height } => {
+            let half = 0.5 * height;
+            let Some((away, along)) = on_cone(away, local.z, radius, height) else {
+                let from_side = (half - local.z) * radius - away * height;
+                let depth = (local.z + half).min(from_side / radius.hypot(height));
+                return Nearest::Inside(depth);
+            };
+            (away, along, half)
+        }
+        SmoothKind::Ellipsoid { .. } | SmoothKind::Function(_) => return Nearest::Unknown,
+    };
+    let names = if along_there >= half {
+        Names::one(HIGH_END)
+    } else if along_there <= -half {
+        Names::one(LOW_END)
+    } else {
+        Names::two(LOW_END, HIGH_END)
+    };
+    let part = if away > 0.0 { away_there / away } else { 0.0 };
+    let there = Vec3::new(local.x * part, local.y * part, along_there);
+    Nearest::At(smooth.moved(&there), names)
+}
+
+/// The closest points of what is inside two cores, and which of them is to be looked for first: a box takes the other's point until then.
+/// `None` for two boxes.
+#[inline(always)]
+fn between_inner(inner: &[Inner; 2]) -> Option<([Vec3; 2], usize)> {
+    let segments = [0, 1].map(|side| match &inner[side] {
+        Inner::Segment(segment) | Inner::Round(_, segment) => Some(*segment),
+        Inner::Ellipsoid(smooth, _) => Some(Segment::point(smooth.center)),
+        Inner::Cuboid(..) => None,
+    });
+    match (segments, inner) {
+        ([Some(a), Some(b)], _) => {
+            let (s, t) = closest_parameters(&a, &b);
+            Some(([a.at(s), b.at(t)], 0))
+        }
+        ([Some(a), None], [_, Inner::Cuboid(placed, cuboid)]) => {
+            Some(([nearest_to_cuboid(&a, placed, cuboid); 2], 1))
+        }
+        ([None, Some(b)], [Inner::Cuboid(placed, cuboid), _]) => {
+            Some(([nearest_to_cuboid(&b, placed, cuboid); 2], 0))
+        }
+        _ => None,
+    }
+}
+
+/// The point of a segment nearest to a box.
+#[inline(always)]
+fn nearest_to_cuboid(segment: &Segment, placed: &PlacedPrimitive, cuboid: &Cuboid) -> Vec3 {
+    let from = cuboid.seen(&placed.seen(&segment.ends()[0]));
+    let along = turned_back(&cuboid.axes, &placed.turned_back(segment.along()));
+    segment.at(nearest_parameter(&from, &along, &cuboid.half))
+}
