@@ -4,6 +4,7 @@
 use smallvec::SmallVec;
 
 use super::closest::{Closest, Segment, closest_parameters};
+use super::contact::mode_of;
 use super::placed::{PlacedPrimitive, Precision};
 use super::polytope_distance::{feature_normal, gap_of_primitives};
 use super::polytope_penetration::polytope_penetration;
@@ -15,6 +16,10 @@ use crate::work_meter::WorkMeter;
 /// At most 4096 edge pairs are tried, where fans of very many edges meet at two touching vertices. A larger value takes
 /// longer at such vertices, a smaller one leaves contacts just inside without a normal.
 const MAX_EDGE_PAIRS: usize = 4096;
+
+/// The normal of the features is along the closest points to within a cosine of this. Nearly parallel edges that are very short for where
+/// they lie may have another: then their closest points are at their ends.
+const MIN_AGREEMENT: f64 = 1.0 - 1e-6;
 
 /// A list of usually few directions.
 type Directions = SmallVec<[Vec3; 16]>;
@@ -42,7 +47,11 @@ impl ContactPair<'_> {
     /// The unit normal from s to r, or `None` where the interiors overlap deeper than [`tolerance::JUST_INSIDE`] L.
     pub fn normal(&self) -> Option<Vec3> {
         if self.is_apart() {
-            return self.normal_apart();
+            let normal = self.normal_apart()?;
+            return Some(match mode_of(self.closest.features) {
+                Some(_) => normal,
+                None => self.normal_of_parallel(normal),
+            });
         }
         if self.closest.depth > tolerance::JUST_INSIDE * self.precision.size {
             return None;
@@ -65,6 +74,7 @@ impl ContactPair<'_> {
         let oriented = |n: Vec3| if n.dot(&between) < 0.0 { -n } else { n };
         if !self.precision.planar
             && let Some(normal) = feature_normal(self.r, self.s, self.closest)
+            && normal.dot(&between).abs() >= MIN_AGREEMENT * self.closest.distance
         {
             return Some(oriented(normal));
         }
@@ -82,6 +92,25 @@ impl ContactPair<'_> {
             ..*self
         };
         Some(pair.normal_near(direct, doubt))
+    }
+
+    /// The normal of parallel features, in whose middle closest points need not be each other's feet: what they are aside shows in their
+    /// distance only by its square. A candidate normal along which the sets are farther apart is better than the direction between them.
+    fn normal_of_parallel(&self, between: Vec3) -> Vec3 {
+        let mut best = (gap_of_primitives(self.r, self.s, &between), between);
+        let least = tolerance::SUPPORT_ERROR * self.precision.size;
+        for candidate in self.local_normals() {
+            let oriented = if candidate.dot(&between) < 0.0 {
+                -candidate
+            } else {
+                candidate
+            };
+            let gap = gap_of_primitives(self.r, self.s, &oriented);
+            if gap > best.0 + least {
+                best = (gap, oriented);
+            }
+        }
+        best.1
     }
 
     /// The candidate normal nearest to a unit direction, or the direction itself where none is within `doubt` of it.

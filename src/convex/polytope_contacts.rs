@@ -87,6 +87,35 @@ pub fn polytope_contacts(
         let (points, features) = (closest.points, closest.features);
         return vec![contact_between(points, features, normal, mode, precision)];
     }
+    // Closest points in the middle of features that are hardly parallel have no contact until these count as parallel.
+    let slacks = [1.0, 1e2, 1e4].map(|times| times * slack);
+    let lists = slacks
+        .into_iter()
+        .map(|slack| contacts_within(slack, &pair, normal));
+    if let Some(found) = lists.into_iter().find(|found| !found.is_empty()) {
+        return found;
+    }
+    // Parallel edges of a planar pair may overlap by less than the slack.
+    let mode = mode_of(closest.features);
+    let only = mode.map(|mode| Contact {
+        points: closest.points,
+        normal,
+        distance: closest.distance,
+        gap: closest.distance,
+        mode,
+        features: closest.features,
+    });
+    only.into_iter().collect()
+}
+
+/// The contacts of features whose corners are level to within `slack`.
+fn contacts_within(slack: f64, pair: &ContactPair, normal: Vec3) -> Vec<Contact> {
+    let ContactPair {
+        r,
+        s,
+        closest,
+        precision,
+    } = *pair;
     let sides = [
         SupportFeature::new(r, &-normal, slack),
         SupportFeature::new(s, &normal, slack),
@@ -96,28 +125,16 @@ pub fn polytope_contacts(
         precision,
         contacts: Vec::new(),
     };
-    if mode.is_some() {
+    let mode = mode_of(closest.features);
+    if mode.is_some_and(|mode| !(precision.planar && mode == ContactMode::EdgeEdge)) {
         list.offer(closest.points, closest.features);
     }
     list.offer_corners(&sides, slack);
-    if !planar {
+    if !precision.planar {
         list.offer_crossings(&sides, slack);
     }
     let mut found = list.contacts;
     deepest_first(&mut found, precision);
-    // Parallel edges of a planar pair may overlap by less than the slack.
-    if found.is_empty()
-        && let Some(mode) = mode_of(closest.features)
-    {
-        found.push(Contact {
-            points: closest.points,
-            normal,
-            distance: closest.distance,
-            gap: closest.distance,
-            mode,
-            features: closest.features,
-        });
-    }
     found
 }
 
@@ -200,6 +217,10 @@ fn has_lone_extreme(placed: &PlacedPrimitive, direction: &Vec3, slack: f64) -> b
     let heights = placed.vertices().iter().map(|v| direction.dot(v));
     heights.filter(|height| *height >= farthest - slack).count() == 1
 }
+
+/// The cosine of the angle between the normal of a face of level corners and the direction along which they are level is more than this,
+/// unless the slack is a hundredth of the face.
+const MIN_FACE_COSINE: f64 = 0.9999;
 
 /// The supporting feature of a primitive along a direction, with its corners in order around the direction.
 struct SupportFeature<'a> {
@@ -286,6 +307,12 @@ impl<'a> SupportFeature<'a> {
                 let normal = match self.feature.kind {
                     FeatureKind::Face => self.placed.normal(self.feature.index as usize),
                     _ => self.normal,
+                };
+                // Of a body that is hardly larger than the slack any face may have the most of its level corners.
+                let normal = if normal.dot(&self.normal) > MIN_FACE_COSINE {
+                    normal
+                } else {
+                    self.normal
                 };
                 point - normal * normal.dot(&(point - self.placed.vertex(self.ring[0])))
             }

@@ -12,6 +12,7 @@ mod given_pairs;
 mod kernel;
 mod laws;
 mod minkowski_facets;
+mod nearly_level;
 mod oracle;
 mod parallel_contacts;
 mod penetration;
