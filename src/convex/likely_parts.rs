@@ -2,6 +2,8 @@
 //! closest points in closed form; from these, nearest points of one core to the other's find the parts in a few steps. Where the guess is
 //! right, Newton's method ends at the distance. On the way most cores that meet are seen to: a point of one is deep inside the other.
 
+use std::ops::ControlFlow;
+
 use super::closest::{Segment, closest_parameters};
 use super::core::{Core, SmoothCore};
 use super::cuboid_distance::{nearest_parameter, way_from_cuboid};
@@ -52,42 +54,23 @@ impl Work for LikelyParts<'_> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, _: I) -> Option<Proved> {
-        let [a, b] = self.cores;
-        let inner = [Inner::of(a)?, Inner::of(b)?];
-        let (mut points, first) = between_inner(&inner)?;
-        let mut names = [Names::one(0); 2];
-        let has_box = inner.iter().any(|one| matches!(one, Inner::Cuboid(..)));
-        for step in 0..2 * ROUNDS + usize::from(has_box) {
-            let side = (first + step) % 2;
-            let point = points[1 - side];
-            match inner[side].nearest(&point) {
-                Nearest::Unknown => (),
-                Nearest::At(there, on) => (points[side], names[side]) = (there, on),
-                Nearest::Inside(depth) => {
-                    return (depth > self.deep).then_some(Proved::Meet { point, depth });
-                }
-            }
-        }
+        let inner = [Inner::of(self.cores[0])?, Inner::of(self.cores[1])?];
+        let (points, mut names) = match self.nearest_points(&inner) {
+            ControlFlow::Continue(found) => found,
+            ControlFlow::Break(proved) => return proved,
+        };
         let way = points[0] - points[1];
         if way.norm() <= self.limits.enough {
             return Some(Proved::Within(points));
         }
         let direction = way.try_normalize(0.0)?;
-        let supports = [a.support(&-direction), b.support(&direction)];
-        let gap = direction.dot(&(supports[0] - supports[1]));
+        let supports = self.supports(&direction);
+        let gap = Self::gap_along(&direction, &supports);
         if gap > self.limits.cutoff {
             return Some(Proved::Beyond { direction, gap });
         }
         if gap <= self.least {
-            for side in 0..2 {
-                let point = supports[1 - side];
-                if let Nearest::Inside(depth) = inner[side].nearest(&point)
-                    && depth > self.deep
-                {
-                    return Some(Proved::Meet { point, depth });
-                }
-            }
-            return None;
+            return self.meeting_at(&supports, &inner);
         }
         for side in 0..2 {
             // The other's point was its centre until now.
@@ -99,6 +82,81 @@ impl Work for LikelyParts<'_> {
         }
         let parts = NearestParts::new(self.cores, names, self.accepted)?;
         Some(Proved::Near(parts.solve(&direction)?))
+    }
+}
+
+impl LikelyParts<'_> {
+    /// A point of each core that is near to the other, and the names of the parts that these are on; of an ellipsoid its centre. Breaks
+    /// where something is proved before, or nothing can be.
+    #[inline(always)]
+    fn nearest_points(
+        &self,
+        inner: &[Inner; 2],
+    ) -> ControlFlow<Option<Proved>, ([Vec3; 2], [Names; 2])> {
+        let Some((mut points, first)) = between_inner(inner) else {
+            return ControlFlow::Break(None);
+        };
+        let mut names = [Names::one(0); 2];
+        let begun = usize::from(inner.iter().any(|one| matches!(one, Inner::Cuboid(..))));
+        for step in 0..begun + 2 * ROUNDS {
+            // From an ellipsoid's centre the direction is hardly another one later.
+            if step == begun
+                && !inner.iter().any(Inner::is_ellipsoid)
+                && let Some(beyond) = self.beyond_cutoff(&points)
+            {
+                return ControlFlow::Break(Some(beyond));
+            }
+            let side = (first + step) % 2;
+            let point = points[1 - side];
+            match inner[side].nearest(&point) {
+                Nearest::Unknown => (),
+                Nearest::At(there, on) => (points[side], names[side]) = (there, on),
+                Nearest::Inside(depth) => return ControlFlow::Break(self.meeting(point, depth)),
+            }
+        }
+        ControlFlow::Continue((points, names))
+    }
+
+    /// Whether the direction between two points parts the cores by more than the cutoff, if there is one. Of many pairs whose distance is
+    /// bounded most do.
+    #[inline(always)]
+    fn beyond_cutoff(&self, points: &[Vec3; 2]) -> Option<Proved> {
+        let cutoff = self.limits.cutoff;
+        if cutoff == f64::INFINITY {
+            return None;
+        }
+        let direction = (points[0] - points[1]).try_normalize(0.0)?;
+        let gap = Self::gap_along(&direction, &self.supports(&direction));
+        (gap > cutoff).then_some(Proved::Beyond { direction, gap })
+    }
+
+    /// Whether the cores meet where a support point of one is inside the other.
+    #[inline(always)]
+    fn meeting_at(&self, supports: &[Vec3; 2], inner: &[Inner; 2]) -> Option<Proved> {
+        (0..2).find_map(|side| {
+            let point = supports[1 - side];
+            match inner[side].nearest(&point) {
+                Nearest::Inside(depth) => self.meeting(point, depth),
+                _ => None,
+            }
+        })
+    }
+
+    #[inline(always)]
+    fn meeting(&self, point: Vec3, depth: f64) -> Option<Proved> {
+        (depth > self.deep).then_some(Proved::Meet { point, depth })
+    }
+
+    /// The support points of A and B towards each other, for a direction from B to A.
+    #[inline(always)]
+    fn supports(&self, direction: &Vec3) -> [Vec3; 2] {
+        let [a, b] = self.cores;
+        [a.support(&-direction), b.support(direction)]
+    }
+
+    #[inline(always)]
+    fn gap_along(direction: &Vec3, supports: &[Vec3; 2]) -> f64 {
+        direction.dot(&(supports[0] - supports[1]))
     }
 }
 
