@@ -1,5 +1,5 @@
-//! Closest points in the middle of parallel features, a face and a face or an edge: moved along them to an end of what the two have in
-//! common, a corner over a face or two edges that cross. There the features have a contact mode (§4.4).
+//! Closest points in the middle of parallel features, a face and a face or an edge, or two edges: moved along them to an end of what the two
+//! have in common, a corner over a face or an edge or two edges that cross. There the features have a contact mode (§4.4).
 
 use super::closest::{Closest, Segment, closest_parameters};
 use super::placed::PlacedPrimitive;
@@ -11,8 +11,7 @@ use crate::tolerance;
 /// within the rounding of the points.
 const PARALLEL_SIDE: f64 = 8.0 * tolerance::EPSILON;
 
-/// The closest points at such an end; the given ones where their features have a contact mode already, `None` where these have no end in
-/// common.
+/// The closest points at such an end; the given ones where their features have an end alone, `None` where these have no end in common.
 pub fn at_end(sides: [&PlacedPrimitive; 2], found: Closest, error: f64) -> Option<Closest> {
     use FeatureKind::{Edge, Face};
     let Closest {
@@ -32,6 +31,7 @@ pub fn at_end(sides: [&PlacedPrimitive; 2], found: Closest, error: f64) -> Optio
         }
         [Edge, Face] => along_edge(sides, features, 0, &points[0], error),
         [Face, Edge] => along_edge(sides, features, 1, &points[1], error),
+        [Edge, Edge] => Some(end_of_parallel(sides, features).unwrap_or(found)),
         _ => Some(found),
     }
 }
@@ -69,6 +69,32 @@ fn along_edge(
     let way = points[0] - points[1];
     let aside = way - normal * normal.dot(&way);
     (aside.norm() <= error).then(|| Closest::between(points, features))
+}
+
+/// The nearest end of one of two edges to the other, where they are parallel.
+fn end_of_parallel(sides: [&PlacedPrimitive; 2], features: [Feature; 2]) -> Option<Closest> {
+    let edges = [0, 1].map(|side| sides[side].shape.edges[features[side].index as usize]);
+    let segments = [0, 1].map(|side| Segment::new(sides[side].edge_ends(edges[side])));
+    let [a, b] = segments.each_ref().map(Segment::along);
+    let sine_square = a.cross(b).norm_squared();
+    if sine_square > tolerance::PARALLEL * tolerance::PARALLEL * a.norm_squared() * b.norm_squared()
+    {
+        return None;
+    }
+    let ends = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(side, end)| {
+        let other = 1 - side;
+        let point = segments[side].ends()[end];
+        let place = segments[other].nearest_parameter(&point);
+        let mut found = Closest::between([point; 2], features);
+        found.features[side] = Feature::vertex(edges[side][end]);
+        if place == 0.0 || place == 1.0 {
+            found.features[other] = Feature::vertex(edges[other][place as usize]);
+        }
+        found.points[other] = segments[other].at(place);
+        Closest::between(found.points, found.features)
+    });
+    ends.into_iter()
+        .min_by(|one, other| one.distance.total_cmp(&other.distance))
 }
 
 /// The direction of a face's first side.
@@ -122,7 +148,7 @@ mod tests {
     use super::*;
     use crate::convex::polytope_distance::gap_of_primitives;
     use crate::convex::{
-        DistanceScratch, PlacedBuffer, Precision, PrimitiveDistance, measure, mode_of,
+        ContactMode, DistanceScratch, PlacedBuffer, Precision, PrimitiveDistance, measure, mode_of,
     };
     use crate::gjk::DistanceLimits;
     use crate::pose::{Pose, rotation_about};
@@ -184,7 +210,17 @@ mod tests {
             if closest.distance < 1e-6 {
                 continue;
             }
-            modes[mode_of(closest.features).expect("a contact mode") as usize] += 1;
+            let mode = mode_of(closest.features).expect("a contact mode");
+            modes[mode as usize] += 1;
+            if mode == ContactMode::EdgeEdge {
+                let [a, b] = [0, 1].map(|side: usize| {
+                    let edges = &placed[side].shape.edges;
+                    let ends = edges[closest.features[side].index as usize];
+                    *Segment::new(placed[side].edge_ends(ends)).along()
+                });
+                let sine = a.cross(&b).norm() / (a.norm() * b.norm());
+                assert!(sine > 1e-9, "parallel edges: {closest:?}");
+            }
             let way = closest.points[0] - closest.points[1];
             let gap = gap_of_primitives(&placed[0], &placed[1], &way.normalize());
             // The direction is off by the points' rounding over their distance.
