@@ -71,7 +71,8 @@ fn along_edge(
     (aside.norm() <= error).then(|| Closest::between(points, features))
 }
 
-/// The nearest end of one of two edges to the other, where they are parallel.
+/// The nearest end of one of two edges to the other, where they are parallel. The other is an edge even there where it ends: so the contact's
+/// normal is across it.
 fn end_of_parallel(sides: [&PlacedPrimitive; 2], features: [Feature; 2]) -> Option<Closest> {
     let edges = [0, 1].map(|side| sides[side].shape.edges[features[side].index as usize]);
     let segments = [0, 1].map(|side| Segment::new(sides[side].edge_ends(edges[side])));
@@ -87,9 +88,6 @@ fn end_of_parallel(sides: [&PlacedPrimitive; 2], features: [Feature; 2]) -> Opti
         let place = segments[other].nearest_parameter(&point);
         let mut found = Closest::between([point; 2], features);
         found.features[side] = Feature::vertex(edges[side][end]);
-        if place == 0.0 || place == 1.0 {
-            found.features[other] = Feature::vertex(edges[other][place as usize]);
-        }
         found.points[other] = segments[other].at(place);
         Closest::between(found.points, found.features)
     });
