@@ -71,12 +71,11 @@ impl ContactPair<'_> {
     #[inline(always)]
     fn normal_apart(&self) -> Option<Vec3> {
         let between = self.closest.points[0] - self.closest.points[1];
-        let oriented = |n: Vec3| if n.dot(&between) < 0.0 { -n } else { n };
         if !self.precision.planar
             && let Some(normal) = feature_normal(self.r, self.s, self.closest)
             && normal.dot(&between).abs() >= MIN_AGREEMENT * self.closest.distance
         {
-            return Some(oriented(normal));
+            return Some(oriented(normal, &between));
         }
         let [on_r, on_s] = self.closest.features;
         let direct = across(self.s, on_s, across(self.r, on_r, between));
@@ -100,14 +99,10 @@ impl ContactPair<'_> {
         let mut best = (gap_of_primitives(self.r, self.s, &between), between);
         let least = tolerance::SUPPORT_ERROR * self.precision.size;
         for candidate in self.local_normals() {
-            let oriented = if candidate.dot(&between) < 0.0 {
-                -candidate
-            } else {
-                candidate
-            };
-            let gap = gap_of_primitives(self.r, self.s, &oriented);
+            let candidate = oriented(candidate, &between);
+            let gap = gap_of_primitives(self.r, self.s, &candidate);
             if gap > best.0 + least {
-                best = (gap, oriented);
+                best = (gap, candidate);
             }
         }
         best.1
@@ -118,14 +113,10 @@ impl ContactPair<'_> {
     fn normal_near(&self, direct: Vec3, doubt: f64) -> Vec3 {
         let mut best = (doubt, direct);
         for candidate in self.local_normals() {
-            let oriented = if candidate.dot(&direct) < 0.0 {
-                -candidate
-            } else {
-                candidate
-            };
-            let off = (oriented - direct).norm();
+            let candidate = oriented(candidate, &direct);
+            let off = (candidate - direct).norm();
             if off <= best.0 {
-                best = (off, oriented);
+                best = (off, candidate);
             }
         }
         best.1
@@ -209,6 +200,16 @@ impl ContactPair<'_> {
             }
         }
         found
+    }
+}
+
+/// A normal of either sign, on the side of a direction.
+#[inline(always)]
+fn oriented(normal: Vec3, direction: &Vec3) -> Vec3 {
+    if normal.dot(direction) < 0.0 {
+        -normal
+    } else {
+        normal
     }
 }
 

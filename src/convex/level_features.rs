@@ -86,10 +86,10 @@ fn end_of_parallel(sides: [&PlacedPrimitive; 2], features: [Feature; 2]) -> Opti
         let other = 1 - side;
         let point = segments[side].ends()[end];
         let place = segments[other].nearest_parameter(&point);
-        let mut found = Closest::between([point; 2], features);
-        found.features[side] = Feature::vertex(edges[side][end]);
-        found.points[other] = segments[other].at(place);
-        Closest::between(found.points, found.features)
+        let (mut points, mut features) = ([point; 2], features);
+        points[other] = segments[other].at(place);
+        features[side] = Feature::vertex(edges[side][end]);
+        Closest::between(points, features)
     });
     ends.into_iter()
         .min_by(|one, other| one.distance.total_cmp(&other.distance))

@@ -9,7 +9,7 @@ use super::core::{Core, SmoothCore};
 use super::cuboid_distance::{nearest_parameter, way_from_cuboid};
 use super::nearest_parts::NearestParts;
 use super::placed::PlacedPrimitive;
-use super::point_to_smooth::on_cone;
+use super::point_to_smooth::nearest_on_smooth;
 use super::polytope_distance::cuboid;
 use crate::gjk::{DistanceLimits, Names, Nearby, Support};
 use crate::lanes::{Instructions, Work};
@@ -260,40 +260,41 @@ fn nearest_of_cuboid(point: &Vec3, placed: &PlacedPrimitive, cuboid: &Cuboid) ->
 #[inline(always)]
 fn nearest_of_round(point: &Vec3, smooth: &SmoothCore) -> Nearest {
     let local = smooth.seen(point);
-    let away = (local.x * local.x + local.y * local.y).sqrt();
-    let (away_there, along_there, half) = match *smooth.kind {
-        SmoothKind::Cylinder {
-            radius,
-            half_length,
-        } => {
-            let depth = (radius - away).min(half_length - local.z.abs());
-            if depth >= 0.0 {
-                return Nearest::Inside(depth);
-            }
-            let along = local.z.clamp(-half_length, half_length);
-            (away.min(radius), along, half_length)
-        }
-        SmoothKind::Cone { radius, height } => {
-            let half = 0.5 * height;
-            let Some((away, along)) = on_cone(away, local.z, radius, height) else {
-                let from_side = (half - local.z) * radius - away * height;
-                let depth = (local.z + half).min(from_side / radius.hypot(height));
-                return Nearest::Inside(depth);
-            };
-            (away, along, half)
-        }
+    let half = match *smooth.kind {
+        SmoothKind::Cylinder { half_length, .. } => half_length,
+        SmoothKind::Cone { height, .. } => 0.5 * height,
         SmoothKind::Ellipsoid { .. } | SmoothKind::Function(_) => return Nearest::Unknown,
     };
-    let names = if along_there >= half {
+    let there = match nearest_on_smooth(&local, smooth.kind) {
+        Some(there) if there != local => there,
+        _ => return Nearest::Inside(depth_in_round(&local, smooth.kind)),
+    };
+    let names = if there.z >= half {
         Names::one(HIGH_END)
-    } else if along_there <= -half {
+    } else if there.z <= -half {
         Names::one(LOW_END)
     } else {
         Names::two(LOW_END, HIGH_END)
     };
-    let part = if away > 0.0 { away_there / away } else { 0.0 };
-    let there = Vec3::new(local.x * part, local.y * part, along_there);
     Nearest::At(smooth.moved(&there), names)
+}
+
+/// How far a point in a cylinder or a cone is from its surface.
+#[inline(always)]
+fn depth_in_round(local: &Vec3, kind: &SmoothKind) -> f64 {
+    let away = (local.x * local.x + local.y * local.y).sqrt();
+    match *kind {
+        SmoothKind::Cylinder {
+            radius,
+            half_length,
+        } => (radius - away).min(half_length - local.z.abs()),
+        SmoothKind::Cone { radius, height } => {
+            let half = 0.5 * height;
+            let from_side = (half - local.z) * radius - away * height;
+            (local.z + half).min(from_side / radius.hypot(height))
+        }
+        SmoothKind::Ellipsoid { .. } | SmoothKind::Function(_) => 0.0,
+    }
 }
 
 /// The closest points of what is inside two cores, and which of them is to be looked for first: a box takes the other's point until then.

@@ -23,6 +23,12 @@ pub fn point_to_smooth(point: &Vec3, core: &Core, least: f64) -> Option<Closest>
 /// other sets.
 #[inline(always)]
 pub fn way_from_smooth(local: &Vec3, kind: &SmoothKind) -> Option<Vec3> {
+    Some(local - nearest_on_smooth(local, kind)?)
+}
+
+/// That nearest point: of a cylinder the point itself where it is inside.
+#[inline(always)]
+pub fn nearest_on_smooth(local: &Vec3, kind: &SmoothKind) -> Option<Vec3> {
     let away = (local.x * local.x + local.y * local.y).sqrt();
     let (away_there, along_there) = match *kind {
         SmoothKind::Cylinder {
@@ -37,13 +43,12 @@ pub fn way_from_smooth(local: &Vec3, kind: &SmoothKind) -> Option<Vec3> {
     } else {
         1.0
     };
-    let there = Vec3::new(local.x * part, local.y * part, along_there);
-    Some(local - there)
+    Some(Vec3::new(local.x * part, local.y * part, along_there))
 }
 
 /// The point of a cone's profile nearest to a point outside, as distance from the axis and height; `None` for a point inside.
 #[inline(always)]
-pub fn on_cone(away: f64, along: f64, radius: f64, height: f64) -> Option<(f64, f64)> {
+fn on_cone(away: f64, along: f64, radius: f64, height: f64) -> Option<(f64, f64)> {
     let half = 0.5 * height;
     if along <= -half && away <= radius {
         return Some((away, -half));

@@ -11,6 +11,10 @@ use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind, convex_hull_2d, plane_axes};
 use crate::tolerance;
 
+/// Corners are level to within the first of these times L that gives a contact: closest points in the middle of features that are hardly
+/// parallel have none until these count as parallel. A larger last one lists corners that are visibly farther away than the closest points.
+const LEVEL: [f64; 3] = [tolerance::PARALLEL, 1e-9, 1e-7];
+
 /// The contact at the closest points of two hulls that are apart, if their features have a contact mode.
 #[inline(always)]
 pub fn first_polytope_contact(
@@ -76,9 +80,8 @@ pub fn polytope_contacts(
     let Some(normal) = pair.normal() else {
         return Vec::new();
     };
-    let planar = precision.planar;
     let slack = tolerance::PARALLEL * precision.size;
-    let mode = mode_of(closest.features).filter(|mode| !(planar && *mode == ContactMode::EdgeEdge));
+    let mode = listed_mode(&pair);
     // Common case: a single corner is nearest, and there is no other contact.
     if let Some(mode) = mode
         && closest.distance > precision.error
@@ -87,12 +90,10 @@ pub fn polytope_contacts(
         let (points, features) = (closest.points, closest.features);
         return vec![contact_between(points, features, normal, mode, precision)];
     }
-    // Closest points in the middle of features that are hardly parallel have no contact until these count as parallel.
-    let slacks = [1.0, 1e2, 1e4].map(|times| times * slack);
-    let lists = slacks
+    let mut lists = LEVEL
         .into_iter()
-        .map(|slack| contacts_within(slack, &pair, normal));
-    if let Some(found) = lists.into_iter().find(|found| !found.is_empty()) {
+        .map(|level| contacts_within(level * precision.size, &pair, normal));
+    if let Some(found) = lists.find(|found| !found.is_empty()) {
         return found;
     }
     // Parallel edges of a planar pair may overlap by less than the slack.
@@ -106,6 +107,12 @@ pub fn polytope_contacts(
         features: closest.features,
     });
     only.into_iter().collect()
+}
+
+/// The mode of the contact at the closest points, if they have one that is listed: in the plane edges do not cross.
+fn listed_mode(pair: &ContactPair) -> Option<ContactMode> {
+    let planar = pair.precision.planar;
+    mode_of(pair.closest.features).filter(|mode| !(planar && *mode == ContactMode::EdgeEdge))
 }
 
 /// The contacts of features whose corners are level to within `slack`.
@@ -125,8 +132,7 @@ fn contacts_within(slack: f64, pair: &ContactPair, normal: Vec3) -> Vec<Contact>
         precision,
         contacts: Vec::new(),
     };
-    let mode = mode_of(closest.features);
-    if mode.is_some_and(|mode| !(precision.planar && mode == ContactMode::EdgeEdge)) {
+    if listed_mode(pair).is_some() {
         list.offer(closest.points, closest.features);
     }
     list.offer_corners(&sides, slack);
@@ -220,7 +226,7 @@ fn has_lone_extreme(placed: &PlacedPrimitive, direction: &Vec3, slack: f64) -> b
 
 /// The cosine of the angle between the normal of a face of level corners and the direction along which they are level is more than this,
 /// unless the slack is a hundredth of the face.
-const MIN_FACE_COSINE: f64 = 0.9999;
+const MIN_LEVEL_COSINE: f64 = 0.9999;
 
 /// The supporting feature of a primitive along a direction, with its corners in order around the direction.
 struct SupportFeature<'a> {
@@ -309,7 +315,7 @@ impl<'a> SupportFeature<'a> {
                     _ => self.normal,
                 };
                 // Of a body that is hardly larger than the slack any face may have the most of its level corners.
-                let normal = if normal.dot(&self.normal) > MIN_FACE_COSINE {
+                let normal = if normal.dot(&self.normal) > MIN_LEVEL_COSINE {
                     normal
                 } else {
                     self.normal

@@ -81,19 +81,11 @@ pub fn smooth_closest(
 /// What the parts that probably hold the closest points prove.
 fn likely(cores: [&Core; 2], pair: &Precision, limits: DistanceLimits) -> Option<Proved> {
     let least = tolerance::SUPPORT_ERROR * pair.size;
-    // A threshold is decided by more than the error, so that its answer is the distance's.
-    let error = tolerance::SMOOTH_ERROR * pair.size;
-    let limits = if limits.enough > error {
-        DistanceLimits {
-            enough: limits.enough - error,
-            cutoff: limits.cutoff + error,
-        }
-    } else {
-        DistanceLimits {
-            enough: f64::NEG_INFINITY,
-            cutoff: limits.cutoff.max(least),
-        }
-    };
+    let threshold = limits.by_more_than(tolerance::SMOOTH_ERROR * pair.size);
+    let limits = threshold.unwrap_or(DistanceLimits {
+        enough: f64::NEG_INFINITY,
+        cutoff: limits.cutoff.max(least),
+    });
     with_widest(LikelyParts {
         cores,
         accepted: tolerance::CERTIFIED_GAP * pair.size,
@@ -320,11 +312,10 @@ mod tests {
             for round in 0..12_000 {
                 let kinds = [round % 3, round / 3 % 7];
                 let shapes = kinds.map(|kind| match kind {
-                    6 => block(
-                        &Pose::identity(),
-                        &Vec3::repeat(0.0).map(|_| 10f64.powf(random.within(-spread, 0.0))),
-                    )
-                    .unwrap(),
+                    6 => {
+                        let half = Vec3::from_fn(|_, _| 10f64.powf(random.within(-spread, 0.0)));
+                        block(&Pose::identity(), &half).unwrap()
+                    }
                     kind => shape(random, kind, spread),
                 });
                 let forms = [0, 1].map(|side| Form::of(&shapes[side]));

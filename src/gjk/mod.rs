@@ -91,6 +91,14 @@ impl DistanceLimits {
         cutoff: f64::INFINITY,
     };
 
+    /// The limits that decide a threshold by more than `error`, so that its answer is the distance's; `None` where no threshold is that large.
+    pub fn by_more_than(self, error: f64) -> Option<Self> {
+        (self.enough > error).then_some(Self {
+            enough: self.enough - error,
+            cutoff: self.cutoff + error,
+        })
+    }
+
     /// The limits for the cores of two sets whose radii sum to `radius`.
     pub fn of_cores(self, radius: f64) -> Self {
         Self {

@@ -92,13 +92,8 @@ pub fn refined<A: Support, B: Support>(
         limits,
         finish: Some(&finish),
     };
-    // Decided only by more than the error of what the whole search finds, so that a threshold's answer is the distance's.
-    let error = tolerance::SMOOTH_ERROR * size;
-    if limits.enough > error {
-        let limits = DistanceLimits {
-            enough: limits.enough - error,
-            cutoff: limits.cutoff + error,
-        };
+    // Decided only by more than the error of what the whole search finds.
+    if let Some(limits) = limits.by_more_than(tolerance::SMOOTH_ERROR * size) {
         let found = with_widest(Refinement {
             limits,
             finish: None,
