@@ -12,6 +12,8 @@ use crate::tolerance;
 pub struct Bounds {
     center: Vec3,
     radius: f64,
+    /// How near the body comes to the centre: see `reach`.
+    reach: f64,
     pub(super) box_center: Vec3,
     /// The first two axes, orthonormal to within 2^-12 (see `PackedBox`); the third is their cross product.
     pub(super) axes: [Vec3; 2],
@@ -41,6 +43,7 @@ impl Bounds {
         Self {
             center: vector(origin + to_ball),
             radius: whole.ball_radius,
+            reach: whole.reach,
             box_center: vector(origin + to_box),
             axes: [vector(axis_x), vector(axis_y)],
             half: whole.half,
@@ -50,14 +53,16 @@ impl Bounds {
         }
     }
 
-    /// A safe lower and a safe upper bound of the distance between two bodies, from their balls.
+    /// A safe lower and a safe upper bound of the distance between two bodies, from their balls and from how near they come to the
+    /// centres of these.
     #[inline(always)]
     pub fn distance(&self, other: &Bounds) -> [f64; 2] {
         let apart = (self.center - other.center).norm();
         let radii = self.radius + other.radius;
+        let at_most = (apart + self.reach + other.reach).max(0.0);
         let largest_coordinate = self.largest_coordinate.max(other.largest_coordinate);
         let slack = slack(largest_coordinate, self.deviation + other.deviation);
-        [apart - radii - slack, apart + radii + slack]
+        [apart - radii - slack, at_most + slack]
     }
 
     /// The centre of the box.

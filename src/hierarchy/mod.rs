@@ -11,6 +11,7 @@ mod options;
 #[doc(hidden)]
 pub mod packed;
 mod parallel;
+mod reach;
 mod refit;
 mod statistics;
 mod subset_tree;
@@ -23,6 +24,8 @@ pub use composed::{PartHierarchy, compose_hierarchy};
 pub use extremes::{extremes, few_extremes};
 pub use options::{Grouping, HierarchyOptions, Pieces, WrapperKind};
 pub use parallel::Progress;
+#[doc(hidden)]
+pub use reach::reach;
 pub use refit::refit_hierarchy;
 pub use statistics::{LevelStatistics, TreeStatistics, of_extents, require_level};
 pub use subset_tree::{Node, SubsetTree};

@@ -6,3 +6,4 @@ mod clouds;
 mod hierarchies;
 mod hierarchy_answers;
 mod hierarchy_levels;
+mod reach;

@@ -94,7 +94,7 @@ fn pack(
         radii,
     };
     packed.nodes = wide_nodes(&cloud, threads, &mut progress.part(0.1, 1.0))?;
-    packed.finish(Ball::around(primitives), primitives.only());
+    packed.finish(Ball::around(primitives), primitives);
     Ok(packed)
 }
 

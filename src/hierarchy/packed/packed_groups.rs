@@ -40,7 +40,7 @@ pub fn pack_groups(
     progress.at(0.2)?;
     let nodes = wide_nodes(&grouped, threads, &mut progress.part(0.2, 1.0))?;
     packed.nodes = nodes;
-    packed.finish(ball, primitives.only());
+    packed.finish(ball, primitives);
     Ok(packed)
 }
 

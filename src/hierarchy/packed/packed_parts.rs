@@ -68,7 +68,7 @@ pub fn pack_parts(
             }
         }
     }
-    packed.finish(ball, primitives.only());
+    packed.finish(ball, primitives);
     Ok(packed)
 }
 

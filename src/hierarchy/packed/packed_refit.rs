@@ -23,7 +23,7 @@ pub fn refit(old: &PackedTree, primitives: &Primitives, ball: Ball) -> PackedTre
         primitives,
         unit: 1.0 / packed.scale(),
     });
-    packed.finish(ball, primitives.only());
+    packed.finish(ball, primitives);
     packed
 }
 

@@ -3,7 +3,7 @@
 
 use super::packed_primitives::PackedPrimitives;
 use crate::boxes::{ChildPoints, PackedBox, WideNode, fitted_axes};
-use crate::hierarchy::{Ball, Node, SubsetTree};
+use crate::hierarchy::{Ball, Node, SubsetTree, reach};
 use crate::lanes::{F64x4, Instructions, Lanes8, Points64, each3};
 use crate::pose::Vec3;
 use crate::primitive::{Primitive, Primitives};
@@ -104,6 +104,8 @@ pub struct Whole {
     /// An upper bound of the corners' distance from the box's centre.
     pub radius: f64,
     pub ball_radius: f64,
+    /// How near the body comes to the ball's centre: see [`reach`].
+    pub reach: f64,
 }
 
 impl Whole {
@@ -143,7 +145,7 @@ impl PackedTree {
         }
         packed.nodes = nodes;
         packed.is_sound().then(|| {
-            packed.finish(ball, primitives.only());
+            packed.finish(ball, primitives);
             packed
         })
     }
@@ -159,6 +161,7 @@ impl PackedTree {
                 half: Vec3::zeros(),
                 radius: 0.0,
                 ball_radius: 0.0,
+                reach: 0.0,
             },
             core: None,
         }
@@ -195,8 +198,8 @@ impl PackedTree {
         (child & LEAF != 0).then_some(child & !LEAF)
     }
 
-    /// Derives the root's bounds, the round core and the lowest primitives. `only` is the primitive, if the tree has just one.
-    pub(crate) fn finish(&mut self, ball: Ball, only: Option<Primitive>) {
+    /// Derives the root's bounds, the round core and the lowest primitives.
+    pub(crate) fn finish(&mut self, ball: Ball, primitives: &Primitives) {
         let root = self.bounding_box(self.root());
         let [x, y, _] = root.axes;
         let [center, half] = [root.center, root.half].map(|v| v.map(f64::from));
@@ -210,8 +213,10 @@ impl PackedTree {
             // The axes are orthogonal only to rounding.
             radius: half.norm() * 1.001,
             ball_radius: ball.radius,
+            reach: reach(primitives, &ball.center),
         };
-        self.core = only.and_then(|only| RoundCore::of(&only, self.scale).map(Box::new));
+        let core = |only: Primitive| RoundCore::of(&only, self.scale);
+        self.core = primitives.only().and_then(core).map(Box::new);
         self.find_lowest();
     }
 

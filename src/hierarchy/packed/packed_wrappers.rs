@@ -26,7 +26,7 @@ pub fn pack_wrappers(
         unit: 1.0 / packed.scale(),
     };
     packed.nodes = wide_nodes(&wrapped, threads, progress)?;
-    packed.finish(tree.ball(), primitives.only());
+    packed.finish(tree.ball(), primitives);
     Ok(packed)
 }
 
