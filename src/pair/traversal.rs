@@ -132,7 +132,11 @@ impl Work for Traversal<'_> {
             self.visits.state.meter.done.cache_hits += 1;
             self.visits.visit(lanes, places, true)?;
         }
-        Walk::new(self.visits, self.stack).run(lanes)
+        Walk {
+            first: self.first,
+            ..Walk::new(self.visits, self.stack)
+        }
+        .run(lanes)
     }
 }
 
@@ -145,6 +149,8 @@ const SHARP_FROM: f32 = 1e-4;
 /// size.
 struct Walk<'a> {
     visits: PairVisits<'a>,
+    /// The primitives that have been visited before.
+    first: Option<[u32; 2]>,
     trees: [&'a PackedTree; 2],
     /// From B's frame into A's, and from A's into B's.
     motions: [Motion32; 2],
@@ -176,6 +182,7 @@ impl<'a> Walk<'a> {
         let inverse_scale = 1.0 / scale;
         let exponent = |tree: &PackedTree| (tree.scale().to_bits() >> 52) as i32;
         Self {
+            first: None,
             motions: [
                 Motion32::new(&pairing.relative, b.scale(), scale),
                 Motion32::new(&pairing.relative.inverse(), a.scale(), scale),
@@ -345,8 +352,11 @@ impl<'a> Walk<'a> {
         a: NodeRef,
         b: NodeRef,
     ) -> ControlFlow<()> {
-        let nearest = self.visits.state.direction_at;
         let places = [self.trees[0].place(a), self.trees[1].place(b)];
+        if self.first == Some(places) {
+            return ControlFlow::Continue(());
+        }
+        let nearest = self.visits.state.direction_at;
         let visited = self.visits.visit(lanes, places, true);
         if self.visits.state.direction_at < nearest {
             self.turn_direction();

@@ -1,5 +1,7 @@
 //! Operation 6: the distance from contact and the nearest primitive pair, for a C-object and for many body pairs.
 
+use smallvec::SmallVec;
+
 use super::answer::Distance;
 use super::body_pairs::CheckedGroup;
 use super::cache_key::PairIds;
@@ -29,18 +31,43 @@ pub(crate) struct NearestHit<'t, 'a> {
 struct RecentDistance {
     /// An upper bound.
     at_most: f64,
-    /// The pair, if it meets: none that comes later in order of ids is asked for.
-    meets: Option<Meeting>,
+    /// The pair as it is now, if it is within the limit.
+    found: Option<Recent>,
 }
 
-/// A primitive pair that meets.
+impl RecentDistance {
+    /// The pair, if it meets: none that comes later in order of ids is asked for.
+    fn meeting(&self) -> Option<Recent> {
+        self.found.filter(|recent| recent.hit.distance == 0.0)
+    }
+}
+
+/// The primitive pair found last, at the configuration asked about.
 #[derive(Clone, Copy)]
-struct Meeting {
+struct Recent {
     ids: PairIds,
     hit: Hit,
+    /// A lower bound of its distance.
+    lower: f64,
     measured: Option<PrimitiveDistance>,
     /// No other term holds a pair with its ids.
     is_alone: bool,
+}
+
+impl Recent {
+    /// Shows it to a visitor, as if it had been measured anew, as one of the pair of bodies with this rank.
+    fn show(mut self, rank: u32, visitor: &mut NearestPrimitives) {
+        self.hit.key.pair = rank;
+        visitor.take(self.hit, self.lower, self.measured.as_ref());
+    }
+
+    /// Its bodies in a list in order of bounds; `None` if another term holds them too.
+    fn target_among<'t, 'a>(&self, targets: &'t [Target<'a>]) -> Option<&'t Target<'a>> {
+        let mut near = targets
+            .iter()
+            .take_while(|target| self.is_alone && target.bound <= self.hit.distance);
+        near.find(|target| target.ids() == self.ids)
+    }
 }
 
 impl QueryContext {
@@ -150,17 +177,17 @@ impl QueryContext {
         let checked = scene.checked(group)?;
         let recent = self.recent_distance(scene, checked, max_distance)?;
         let mut distance = Distance::unknown();
-        let meets = recent.meets.is_some();
-        if meets || self.met_last {
-            distance = self.distance_if_meeting(checked, scene, recent.meets)?;
+        let meeting = recent.meeting();
+        if meeting.is_some() || self.met_last {
+            distance = self.distance_if_meeting(checked, scene, meeting)?;
         }
-        if !meets && !distance.is_zero() {
+        if meeting.is_none() && !distance.is_zero() {
             let filter = CandidateFilter {
                 nearest: Some(recent.at_most),
                 ..CandidateFilter::within(0.0)
             };
             let candidates = self.candidates(scene, checked, filter)?;
-            distance = self.distance_among(group, scene, &candidates, max_distance)?;
+            distance = self.distance_near(group, scene, &candidates, max_distance, recent.found)?;
             self.keep_memory(candidates);
         }
         self.met_last = distance.is_zero();
@@ -186,7 +213,7 @@ impl QueryContext {
         &mut self,
         group: CheckedGroup,
         scene: &Scene,
-        last: Option<Meeting>,
+        last: Option<Recent>,
     ) -> Result<Distance> {
         let filter = CandidateFilter {
             order: ListOrder::Ids,
@@ -197,14 +224,13 @@ impl QueryContext {
         // The last of the list is this pair, if it is there.
         let at_end = candidates.last();
         let is_known =
-            |last: &Meeting| last.is_alone && at_end.is_some_and(|target| target.ids() == last.ids);
+            |last: &Recent| last.is_alone && at_end.is_some_and(|target| target.ids() == last.ids);
         let mut visitor = NearestPrimitives::up_to(0.0);
-        if let Some(mut known) = last.filter(is_known) {
-            known.hit.key.pair = candidates.len() as u32 - 1;
-            visitor.take(known.hit, 0.0, None);
+        if let Some(known) = last.filter(is_known) {
+            known.show(candidates.len() as u32 - 1, &mut visitor);
             visitor.measured = known.measured;
         }
-        let found = self.nearest_from(&candidates, visitor)?;
+        let found = self.nearest_from(&candidates, visitor, None)?;
         let distance = self.distance_of_found(&group, scene, &found, 0.0);
         self.keep_memory(candidates);
         Ok(distance)
@@ -217,11 +243,24 @@ impl QueryContext {
         candidates: &[Target],
         max_distance: f64,
     ) -> Result<Distance> {
+        self.distance_near(group, scene, candidates, max_distance, None)
+    }
+
+    /// The same, with the primitive pair found last.
+    fn distance_near(
+        &mut self,
+        group: &Group,
+        scene: &Scene,
+        candidates: &[Target],
+        max_distance: f64,
+        recent: Option<Recent>,
+    ) -> Result<Distance> {
         let is_all_asked = max_distance == f64::INFINITY;
         if scene.is_empty(group) || (candidates.is_empty() && is_all_asked) {
             return Ok(Distance::empty(scene.version()));
         }
-        let found = self.nearest(candidates, max_distance)?;
+        let visitor = NearestPrimitives::up_to(max_distance);
+        let found = self.nearest_from(candidates, visitor, recent)?;
         Ok(self.distance_of_found(group, scene, &found, max_distance))
     }
 
@@ -253,28 +292,27 @@ impl QueryContext {
         limit: f64,
     ) -> Result<RecentDistance> {
         let ids = self.recent.map(|key| key.ids());
-        let (mut at_most, mut meets) = (limit, None);
+        let (mut at_most, mut found) = (limit, None);
         let mut terms = 0;
         self.visit_recent(scene, group, |pairing, places, margin, scratch| {
             let mut visitor = NearestPrimitives::up_to(at_most);
             visitor.margin = margin;
             let _ = visit_pair(pairing, places, scratch, &mut visitor);
             (at_most, terms) = (visitor.limit(), terms + 1);
-            if let Some((ids, hit)) = ids.zip(visitor.best)
-                && hit.distance == 0.0
-            {
-                meets = Some(Meeting {
+            if let Some((ids, hit)) = ids.zip(visitor.best) {
+                found = Some(Recent {
                     ids,
                     hit,
+                    lower: visitor.lower,
                     measured: visitor.measured,
                     is_alone: true,
                 });
             }
         })?;
-        if let Some(meets) = &mut meets {
-            meets.is_alone = terms == 1;
+        if let Some(found) = &mut found {
+            found.is_alone = terms == 1;
         }
-        Ok(RecentDistance { at_most, meets })
+        Ok(RecentDistance { at_most, found })
     }
 
     /// The nearest primitive pair, or piece of a body inside another, over all targets, if within `limit`. Targets must be
@@ -284,18 +322,26 @@ impl QueryContext {
         targets: &'t [Target<'a>],
         limit: f64,
     ) -> Result<NearestHit<'t, 'a>> {
-        self.nearest_from(targets, NearestPrimitives::up_to(limit))
+        self.nearest_from(targets, NearestPrimitives::up_to(limit), None)
     }
 
-    /// The same, if nearer than what the visitor has found.
+    /// The same, if nearer than what the visitor has found. What `recent` holds is not measured again.
     fn nearest_from<'t, 'a>(
         &mut self,
         targets: &'t [Target<'a>],
         mut visitor: NearestPrimitives,
+        recent: Option<Recent>,
     ) -> Result<NearestHit<'t, 'a>> {
         // Warm start: the last nearest primitive pair of each two bodies bounds the distance before any tree is traversed. Where only what
         // meets is asked for, no bound is needed.
         let starts_warm = targets.len() > 1 && visitor.limit() > 0.0;
+        let recent_rank = recent.and_then(|recent| {
+            let target = recent.target_among(targets)?;
+            recent.show(target.rank, &mut visitor);
+            Some(target.rank)
+        });
+        // The ranks of the pairs whose remembered primitives are measured.
+        let mut shown: SmallVec<[u32; 16]> = recent_rank.into_iter().collect();
         for target in targets.iter().filter(|_| starts_warm) {
             visitor.margin = target.margin();
             visitor.body_pair = target.rank;
@@ -306,8 +352,11 @@ impl QueryContext {
                 continue;
             }
             self.count_body_pair()?;
-            if let Some(places) = self.remembered(&target.key) {
+            if recent_rank != Some(target.rank)
+                && let Some(places) = self.remembered(&target.key)
+            {
                 let _ = visit_pair(&target.pairing(), places, &mut self.scratch, &mut visitor);
+                shown.push(target.rank);
             }
         }
         for target in targets {
@@ -323,6 +372,9 @@ impl QueryContext {
                     contained
                         .iter()
                         .for_each(|&hit| visitor.take(hit, 0.0, None));
+                }
+                if pairing.only_places().is_some() && shown.contains(&target.rank) {
+                    continue;
                 }
                 let first = self.remembered(&target.key);
                 let _ = traverse(&pairing, first, &mut self.scratch, &mut visitor);
