@@ -44,7 +44,7 @@ impl RecentDistance {
 
 /// The primitive pair found last, at the configuration asked about.
 #[derive(Clone, Copy)]
-struct Recent {
+pub(super) struct Recent {
     ids: PairIds,
     hit: Hit,
     /// A lower bound of its distance.
@@ -187,7 +187,8 @@ impl QueryContext {
                 ..CandidateFilter::within(0.0)
             };
             let candidates = self.candidates(scene, checked, filter)?;
-            distance = self.distance_near(group, scene, &candidates, max_distance, recent.found)?;
+            distance =
+                self.distance_among(group, scene, &candidates, max_distance, recent.found)?;
             self.keep_memory(candidates);
         }
         self.met_last = distance.is_zero();
@@ -237,17 +238,6 @@ impl QueryContext {
     }
 
     pub(super) fn distance_among(
-        &mut self,
-        group: &Group,
-        scene: &Scene,
-        candidates: &[Target],
-        max_distance: f64,
-    ) -> Result<Distance> {
-        self.distance_near(group, scene, candidates, max_distance, None)
-    }
-
-    /// The same, with the primitive pair found last.
-    fn distance_near(
         &mut self,
         group: &Group,
         scene: &Scene,

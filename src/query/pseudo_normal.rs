@@ -96,7 +96,7 @@ impl QueryContext {
             ..CandidateFilter::within(request.epsilon)
         };
         let candidates = self.candidates(scene, scene.checked(group)?, filter)?;
-        let distance = self.distance_among(group, scene, &candidates, f64::INFINITY)?;
+        let distance = self.distance_among(group, scene, &candidates, f64::INFINITY, None)?;
         let list = self.list(group, scene, &candidates, request)?;
         let class = if distance.lower == 0.0 {
             Class::Inside
