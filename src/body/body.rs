@@ -44,6 +44,8 @@ pub struct Body {
     pieces: OnceLock<Pieces>,
     /// Computed on first use, of solids.
     pub(super) convex_whole: OnceLock<Option<Box<Body>>>,
+    /// Computed on first use.
+    pub(super) hull: OnceLock<Option<Box<Body>>>,
     pub(super) statistics: BodyStatistics,
     data: OnceLock<UserData>,
 }
@@ -102,6 +104,7 @@ impl Body {
             joints: Arc::default(),
             pieces: OnceLock::new(),
             convex_whole: OnceLock::new(),
+            hull: OnceLock::new(),
             statistics,
             data: OnceLock::new(),
         }

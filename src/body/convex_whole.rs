@@ -18,7 +18,7 @@ impl Body {
     }
 
     /// What rounding of corners and planes amounts to.
-    fn rounding(&self) -> f64 {
+    pub(super) fn rounding(&self) -> f64 {
         16.0 * EPSILON * (self.radius() + self.center().amax())
     }
 

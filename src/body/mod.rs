@@ -16,6 +16,7 @@ mod farthest;
 mod file;
 mod file_reader;
 mod file_writer;
+mod hull;
 mod joints;
 mod mesh;
 mod mesh_budget;

@@ -226,6 +226,9 @@ impl<P: Piece> Look<'_, '_, P> {
             return;
         }
         let number = pair.pair as usize;
+        if self.parts_hulls(pair.pair, MEASURE_COST) {
+            return;
+        }
         let over = self.over.of(number, self.pairs, self.piece);
         let over = match over {
             PairOver::Near(over) => over,
@@ -384,6 +387,25 @@ impl<P: Piece> Look<'_, '_, P> {
         }
     }
 
+    /// Whether the hulls of a pair stay apart through the piece. Tried once a piece, of pairs for which many boxes were opened.
+    fn parts_hulls(&mut self, number: u32, work: u32) -> bool {
+        let pair = &self.pairs[number as usize];
+        if self.leaf.complement || !pair.count_groups(work) || !self.pair.tries_hulls(number) {
+            return false;
+        }
+        let over = self.over.of(number as usize, self.pairs, self.piece);
+        let PairOver::Near(_) = over else {
+            return false;
+        };
+        let moved = self.piece.moved(pair);
+        self.scratch.count_primitive_pair();
+        let are_parted = pair.hulls_stay_apart(moved, self.scratch.for_primitives());
+        if are_parted {
+            self.over.part(number as usize);
+        }
+        are_parted
+    }
+
     /// Looks at the children of a group: decided ones fall away, others are opened, visited, or left to the halves.
     #[inline(always)]
     fn open<I: Instructions>(&mut self, lanes: I, mut group: Group) {
@@ -392,6 +414,9 @@ impl<P: Piece> Look<'_, '_, P> {
             return;
         }
         let number = group.pair as usize;
+        if self.parts_hulls(group.pair, 1) {
+            return;
+        }
         let [a, b] = self.pairs[number].bodies();
         let over = self.over.of(number, self.pairs, self.piece);
         let over = match over {

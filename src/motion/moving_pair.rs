@@ -1,5 +1,7 @@
 //! Two bodies, one of which moves as the other sees it, and what is known of them over an interval of the motion.
 
+use std::cell::Cell;
+
 use super::balls::Balls;
 use super::carried::Carried;
 use super::kinematics::{CenterMotion, Kinematics, Relative};
@@ -10,7 +12,9 @@ use crate::body::Body;
 use crate::convex::{Extension, SweepTwist};
 use crate::hierarchy::packed::power_of_two_above;
 use crate::lanes::each3;
-use crate::pair::{Motion32, Pairing, ROUNDING, SweptLimits, Twist32, sum_factor};
+use crate::pair::{
+    Motion32, Pairing, PrimitiveScratch, ROUNDING, SweptLimits, Twist32, sum_factor,
+};
 use crate::pose::{Pose, Vec3, turned_back};
 use crate::robot::{ChainRounding, LinkMotions, MotionRates};
 use crate::tolerance::SUM_SLACK;
@@ -27,7 +31,23 @@ pub(super) struct MovingPair<'a> {
     pub leaf: u32,
     /// Intervals before this time need no proof.
     pub followed_from: f64,
+    hulls: HullsTried,
 }
+
+/// What is known of the hulls of two bodies on a motion. Links that are never far apart, as those with two joints between them, mostly have
+/// hulls that are apart all the while, and a single direction says so where boxes would have to be opened by the dozen.
+#[derive(Clone, Default)]
+struct HullsTried {
+    /// Groups of boxes that were opened for the pair so far, up to those before hulls are tried.
+    groups: Cell<u32>,
+    /// The direction that parted them last, in B's frame, or zero.
+    direction: Cell<[f32; 3]>,
+}
+
+/// After so many groups of boxes the hulls of a pair are tried: pairs that are far apart take fewer.
+const GROUPS_BEFORE_HULLS: u32 = 16;
+/// The number of groups of a pair whose hulls meet.
+const HULLS_MEET: u32 = u32::MAX;
 
 /// What is known of a pair's relative motion.
 #[derive(Clone, Copy, Debug)]
@@ -81,7 +101,48 @@ impl<'a> MovingPair<'a> {
             threshold: threshold + stated_deviation,
             leaf,
             followed_from: 0.0,
+            hulls: HullsTried::default(),
         })
+    }
+
+    /// Counts work on the pair, in groups of boxes. Whether it is worth trying the hulls of the bodies.
+    pub fn count_groups(&self, groups: u32) -> bool {
+        let before = self.hulls.groups.get();
+        if before == HULLS_MEET {
+            return false;
+        }
+        self.hulls
+            .groups
+            .set(before.saturating_add(groups).min(GROUPS_BEFORE_HULLS));
+        before >= GROUPS_BEFORE_HULLS
+    }
+
+    /// Whether the convex hulls of the bodies stay apart through a piece, and so all that these are made of.
+    pub fn hulls_stay_apart<L: TwistLists>(
+        &self,
+        moved: Moved<L>,
+        scratch: &mut PrimitiveScratch,
+    ) -> bool {
+        let [Some((a, outside_a)), Some((b, outside_b))] = self.bodies().map(Body::hull) else {
+            self.hulls.groups.set(HULLS_MEET);
+            return false;
+        };
+        let mut over = self.placed_as([a, b], moved);
+        let Some(places) = over.pairing.only_places() else {
+            return false;
+        };
+        let deviation: f64 = self.bodies().map(Body::deviation).iter().sum();
+        over.limits.slack += 2.0 * (outside_a + outside_b + deviation);
+        let mut direction = self.hulls.direction.get();
+        let (sweep, limits) = (over.sweep(), &over.limits);
+        let are_parted =
+            over.pairing
+                .parted_by_one(places, &mut direction, &sweep, limits, scratch);
+        self.hulls.direction.set(direction);
+        if direction == [0.0; 3] {
+            self.hulls.groups.set(HULLS_MEET);
+        }
+        are_parted
     }
 
     pub fn carried(&self) -> (&Carried<'a, usize>, &Carried<'a, Option<usize>>) {
@@ -225,7 +286,16 @@ impl<'a> MovingPair<'a> {
     /// The pair in one frame, with all that boxes and primitives are compared by.
     #[inline]
     pub fn placed<L: TwistLists>(&self, moved: Moved<L>) -> OverPiece<'a, L> {
-        let [a, b] = self.bodies();
+        self.placed_as(self.bodies(), moved)
+    }
+
+    /// The same for bodies that stand for the two.
+    #[inline]
+    fn placed_as<'b, L: TwistLists>(
+        &self,
+        [a, b]: [&'b Body; 2],
+        moved: Moved<L>,
+    ) -> OverPiece<'b, L> {
         let radius = a.radius();
         let [pose_a, pose_b] = &moved.poses;
         let bends = moved.bends;

@@ -63,6 +63,11 @@ impl<'a, L: TwistLists> OverPairs<'a, L> {
         self.made.len()
     }
 
+    /// Notes that a pair, of which something was asked in this piece, stays apart through it.
+    pub fn part(&mut self, number: usize) {
+        self.made[self.places[number].0 as usize] = PairOver::Apart;
+    }
+
     pub fn of<P: Piece<Lists = L>>(
         &mut self,
         number: usize,

@@ -10,6 +10,8 @@ pub(super) struct PairLook {
     /// The work done on it, and the most that is done on the rest.
     work: u32,
     max_work: u32,
+    /// The hulls of its bodies have been tried.
+    are_hulls_tried: bool,
 }
 
 impl PairLook {
@@ -19,6 +21,7 @@ impl PairLook {
             is_left: false,
             work: 0,
             max_work,
+            are_hulls_tried: false,
         }
     }
 
@@ -34,6 +37,12 @@ impl PairLook {
     pub fn count(&mut self, number: u32, work: u32) {
         self.start(number);
         self.work = self.work.saturating_add(work);
+    }
+
+    /// Whether the hulls of a pair are tried for the first time.
+    pub fn tries_hulls(&mut self, number: u32) -> bool {
+        self.start(number);
+        !std::mem::replace(&mut self.are_hulls_tried, true)
     }
 
     /// Notes that something of a pair is left.

@@ -4,7 +4,7 @@ use super::Scratch;
 use super::pair_distance::{PairDistance, PrimitiveScratch};
 use super::pairing::{EMPTY, Pairing};
 use crate::convex::{PlacedPrimitive, Sweep, first_contact, swept_gap};
-use crate::gjk::DistanceLimits;
+use crate::gjk::{DistanceLimits, gjk};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::{Vec3, turned, turned_back};
 use crate::primitive::SmoothKind;
@@ -35,6 +35,10 @@ pub enum SweptLeaves {
 /// Closest points have errors of some EPSILON of the pair's size L, and the direction between them one of that over their distance d.
 /// What it tilts shows in a gap once d^2 is at most this times L and the motion's length.
 const HAIR: f64 = 1e4 * EPSILON;
+
+/// The direction that parts two hulls is looked for no longer once they are as near as this part of their size: no interval is then long
+/// enough for one to be of use.
+const HULLS_NEAR: f64 = 1e-4;
 
 /// A look at two primitives, in the widest instructions.
 struct SweptPair<'a, 'p> {
@@ -150,6 +154,36 @@ impl Pairing<'_> {
         }
         let in_b = turned_back(&self.relative.rotation, &direction);
         SweptLeaves::Undecided([in_b.x as f32, in_b.y as f32, in_b.z as f32])
+    }
+
+    /// Whether one direction parts two primitives, whose cores are no smooth sets, through the interval. `direction`, from B to A in
+    /// B's frame or zero, is tried first; it becomes another one that parts them at the middle, or zero where that does not.
+    pub fn parted_by_one(
+        &self,
+        places: [u32; 2],
+        direction: &mut [f32; 3],
+        sweep: &Sweep,
+        limits: &SweptLimits,
+        scratch: &mut PrimitiveScratch,
+    ) -> bool {
+        let needed = limits.threshold + limits.slack;
+        let mut start = -self.relative.translation;
+        if *direction != [0.0; 3] {
+            start = turned(&self.relative.rotation, &direction.map(f64::from).into());
+            if self.stays_apart(places, &start, sweep, needed, scratch) {
+                return true;
+            }
+        }
+        let [a, b] = self.placed(places, &mut scratch.buffer);
+        let near = DistanceLimits {
+            enough: HULLS_NEAR * self.precision.size,
+            ..DistanceLimits::EXACT
+        };
+        let found = gjk(&a, &b, start, near);
+        let in_b = turned_back(&self.relative.rotation, &found.direction);
+        *direction = [in_b.x as f32, in_b.y as f32, in_b.z as f32];
+        found.direction != Vec3::zeros()
+            && self.stays_apart(places, &found.direction, sweep, needed, scratch)
     }
 
     /// The normal of the contact of primitives that are apart, in A's frame: it comes from their features, and does not lose digits

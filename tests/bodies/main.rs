@@ -5,6 +5,7 @@ mod closed_surfaces;
 mod cloud_files;
 mod flat_hulls;
 mod given;
+mod hull;
 mod nurbs_surfaces;
 mod obj_files;
 mod parts;
