@@ -16,6 +16,14 @@ fi
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
 export OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_plm_rsh_agent=false
 
+# Each run keeps its session's files in a folder of its own: Open MPI else removes those of the run before while the next makes its own.
+sessions=$(mktemp -d)
+trap 'rm -rf "$sessions"' EXIT
+new_session() {
+    TMPDIR=$(mktemp -d "$sessions/XXXXXX")
+    export TMPDIR
+}
+
 complain() {
     echo "FAILED: $*" >&2
     exit 1
@@ -28,6 +36,7 @@ same_for_any_number_of_ranks() {
     "$program" --whole --kind "$kind" appendix "$models" "whole_$kind.npy" "$@" >report.txt
     for ranks in 1 2 4; do
         rm -f "$kind.npy" "$kind.npy.part" "$kind.npy.journal"
+        new_session
         mpirun -n $ranks "$program" --kind "$kind" --tiles 100 appendix "$models" "$kind.npy" "$@" >report.txt
         cmp "$kind.npy" "whole_$kind.npy" || complain "$kind by $ranks ranks are not those of one process"
         [ ! -e "$kind.npy.part" ] && [ ! -e "$kind.npy.journal" ] || complain "something is left of a finished run"
@@ -54,6 +63,7 @@ still_runs() { kill -0 $mpirun 2>/dev/null || complain "the run was over before 
 # The process is looked for first: a busy machine may start it when others have long since begun.
 lose() {
     length=$(journal_length)
+    new_session
     mpirun -n "$2" "$program" $job >report.txt 2>&1 &
     mpirun=$!
     killed=
@@ -82,6 +92,7 @@ a_lost_run_is_resumed() {
     "$program" --whole --kind distances appendix "$models" whole.npy $1 >report.txt
     lose 1 4
     cp after.txt first.txt
+    new_session
     if mpirun -n 2 "$program" --kind distances --tiles 512 appendix "$models" lost.npy $2 >report.txt 2>&1; then
         complain "the journal of another array was taken"
     fi
@@ -91,6 +102,7 @@ a_lost_run_is_resumed() {
     # A line that the kill cut short.
     printf 'tile 00000' >>lost.npy.journal
     cp after.txt before.txt
+    new_session
     mpirun -n 2 "$program" $job >report.txt
     grep -qx "resumed: $(wc -l <before.txt) of 512 tiles are on disk" report.txt || complain "not resumed: $(cat report.txt)"
     sed '1d; s/,.*//' costs.csv | sort >computed.txt
