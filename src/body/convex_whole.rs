@@ -1,8 +1,7 @@
 //! The polyhedron that a solid is, where its boundary is convex: as one primitive its depth is exact.
 
 use super::body::Body;
-use super::builder::BodyBuilder;
-use crate::hierarchy::HierarchyOptions;
+use super::hull::of_one_polyhedron;
 use crate::pose::Vec3;
 use crate::tolerance::EPSILON;
 
@@ -53,11 +52,6 @@ impl Body {
             .iter()
             .map(|corner| corner + self.center())
             .collect();
-        let mut builder = BodyBuilder::new(3).ok()?;
-        builder.add_polyhedron(&points, 0).ok()?;
-        let body = builder
-            .build(&HierarchyOptions::default(), &mut |_| Ok(()))
-            .ok()?;
-        Some(Box::new(body))
+        of_one_polyhedron(&points)
     }
 }

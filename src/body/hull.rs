@@ -6,7 +6,7 @@ use crate::hierarchy::HierarchyOptions;
 use crate::pose::Vec3;
 
 /// Of bodies with more points no hull is computed, which takes time and memory in proportion.
-const MAX_POINTS: usize = 1 << 16;
+const MAX_POINTS: usize = 1 << 14;
 
 impl Body {
     /// The convex hull of the body's primitives, as a body of one polyhedron in the same frame, and how far rounding may leave a point
@@ -34,12 +34,16 @@ impl Body {
         if points.len() > MAX_POINTS {
             return None;
         }
-        let mut builder = BodyBuilder::new(3).ok()?;
-        builder.add_polyhedron(&points, 0).ok()?;
-        let hull = builder
-            .build(&HierarchyOptions::default(), &mut |_| Ok(()))
-            .ok()?;
+        let hull = of_one_polyhedron(&points)?;
         let is_solid = hull.primitives().only()?.shape.is_solid();
-        is_solid.then(|| Box::new(hull))
+        is_solid.then_some(hull)
     }
+}
+
+/// The convex hull of points of space, as a body.
+pub(super) fn of_one_polyhedron(points: &[Vec3]) -> Option<Box<Body>> {
+    let mut builder = BodyBuilder::new(3).ok()?;
+    builder.add_polyhedron(points, 0).ok()?;
+    let body = builder.build(&HierarchyOptions::default(), &mut |_| Ok(()));
+    body.ok().map(Box::new)
 }
