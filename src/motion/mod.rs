@@ -16,6 +16,7 @@ mod interval_proof;
 mod kinematics;
 mod linear_motion;
 mod look;
+mod look_at_boxes;
 #[allow(clippy::module_inception)]
 mod motion;
 mod moving_pair;
