@@ -52,6 +52,9 @@ mod whole_file;
 // The elements of URDF, SRDF and COLLADA files.
 mod xml;
 
+// Sines and cosines, four angles at a time.
+mod turn;
+
 // Rigid poses, checked and composed.
 pub mod pose;
 

@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::lanes::{Doubles, F64x4, Instructions, Plain, Work, along64, with_widest};
 use crate::tolerance;
+use crate::turn::Turn;
 
 /// A point, vector or direction; points and lengths in the caller's unit.
 pub type Vec3 = Vector3<f64>;
@@ -148,40 +149,20 @@ impl Pose {
     /// The product self * child: the pose of the child's child in this pose's parent frame.
     #[inline(always)]
     pub fn compose(&self, child: &Pose) -> Pose {
-        self.compose_with(Plain, child)
-    }
-
-    /// The same within code that is compiled for an instruction set.
-    #[inline(always)]
-    pub(crate) fn compose_with<I: Instructions>(&self, lanes: I, child: &Pose) -> Pose {
-        let axes = columns(lanes, &self.rotation);
-        let moved = along64(&axes, &of_vector(&child.translation));
-        let translation = moved + column(lanes, self, 3);
-        Pose {
-            rotation: turned_columns(&axes, &child.rotation),
-            translation: vector(translation),
-        }
+        PoseColumns::of(Plain, self).compose(child).pose()
     }
 
     /// The pose after a turn by `angle` radians about a unit axis of its own frame.
-    #[inline(always)]
     pub fn turned_about(&self, axis: &Vec3, angle: f64) -> Pose {
-        let rotation = match [axis.x, axis.y, axis.z].map(f64::abs) {
-            [0.0, 0.0, 1.0] => turned_about_axis::<2>(&self.rotation, angle * axis.z),
-            [0.0, 1.0, 0.0] => turned_about_axis::<1>(&self.rotation, angle * axis.y),
-            [1.0, 0.0, 0.0] => turned_about_axis::<0>(&self.rotation, angle * axis.x),
-            _ => turned_axes(&self.rotation, &rotation_about(axis, angle)),
-        };
-        Pose { rotation, ..*self }
+        let columns = PoseColumns::of(Plain, self);
+        columns.turned_by(axis, Turn::by(angle)).pose()
     }
 
     /// The pose after a shift along a unit axis of its own frame.
     #[inline(always)]
     pub fn shifted_along(&self, axis: &Vec3, length: f64) -> Pose {
-        Pose {
-            translation: self.translation + turned(&self.rotation, axis) * length,
-            ..*self
-        }
+        let columns = PoseColumns::of(Plain, self);
+        columns.shifted_along(axis, length).pose()
     }
 
     /// The pose of the parent in the child frame.
@@ -202,6 +183,64 @@ impl Pose {
     }
 }
 
+/// A pose in registers: its axes and its origin. The fourth lanes mean nothing.
+#[derive(Clone, Copy)]
+pub(crate) struct PoseColumns<I: Instructions> {
+    axes: [Doubles<I>; 3],
+    origin: Doubles<I>,
+}
+
+impl<I: Instructions> PoseColumns<I> {
+    #[inline(always)]
+    pub fn of(lanes: I, pose: &Pose) -> Self {
+        Self {
+            axes: columns(lanes, &pose.rotation),
+            origin: column(lanes, pose, 3),
+        }
+    }
+
+    #[inline(always)]
+    pub fn pose(&self) -> Pose {
+        Pose {
+            rotation: of_columns(self.axes),
+            translation: vector(self.origin),
+        }
+    }
+
+    /// See [`Pose::compose`].
+    #[inline(always)]
+    pub fn compose(&self, child: &Pose) -> Self {
+        let moved = along64(&self.axes, &of_vector(&child.translation));
+        Self {
+            axes: turned_columns(&self.axes, &child.rotation),
+            origin: moved + self.origin,
+        }
+    }
+
+    /// The pose after a turn about a unit axis of its own frame. Of a turn about x, y or z, the case of most joints, only two columns
+    /// change.
+    #[inline(always)]
+    pub fn turned_by(&self, axis: &Vec3, turn: Turn) -> Self {
+        let axes = match [axis.x, axis.y, axis.z].map(f64::abs) {
+            [0.0, 0.0, 1.0] => turned_about_axis::<2, I>(self.axes, turn.signed(axis.z)),
+            [0.0, 1.0, 0.0] => turned_about_axis::<1, I>(self.axes, turn.signed(axis.y)),
+            [1.0, 0.0, 0.0] => turned_about_axis::<0, I>(self.axes, turn.signed(axis.x)),
+            _ => turned_columns(&self.axes, &rotation_by(axis, turn)),
+        };
+        Self { axes, ..*self }
+    }
+
+    /// See [`Pose::shifted_along`].
+    #[inline(always)]
+    pub fn shifted_along(&self, axis: &Vec3, length: f64) -> Self {
+        let direction = along64(&self.axes, &of_vector(axis));
+        Self {
+            origin: self.origin + direction * length,
+            ..*self
+        }
+    }
+}
+
 /// Refuses a dimension other than 2 (planar) or 3 (spatial).
 pub fn check_dimension(dimension: u32) -> Result<()> {
     if dimension != 2 && dimension != 3 {
@@ -214,7 +253,12 @@ pub fn check_dimension(dimension: u32) -> Result<()> {
 
 /// The rotation by `angle` radians about the unit vector `axis` (Rodrigues' formula).
 pub fn rotation_about(axis: &Vec3, angle: f64) -> Mat3 {
-    let (s, c) = angle.sin_cos();
+    rotation_by(axis, Turn::by(angle))
+}
+
+/// The same, by the angle's sine and cosine.
+fn rotation_by(axis: &Vec3, turn: Turn) -> Mat3 {
+    let (s, c) = (turn.sine, turn.cosine);
     let (v, [x, y, z]) = (1.0 - c, [axis.x, axis.y, axis.z]);
     let on_axis = |a: f64, b: f64| 1.0 - (a * a + b * b) * v;
     Mat3::new(
@@ -381,28 +425,29 @@ pub fn turned_back(matrix: &Mat3, v: &Vec3) -> Vec3 {
 /// matrix * axes, a column at a time.
 #[inline(always)]
 pub fn turned_axes(matrix: &Mat3, axes: &Mat3) -> Mat3 {
-    turned_columns(&columns(Plain, matrix), axes)
+    of_columns(turned_columns(&columns(Plain, matrix), axes))
 }
 
 /// The same of a matrix whose columns are in registers: to the last bit what [`turned`] has.
 #[inline(always)]
-fn turned_columns<I: Instructions>(matrix: &[Doubles<I>; 3], axes: &Mat3) -> Mat3 {
+fn turned_columns<I: Instructions>(matrix: &[Doubles<I>; 3], axes: &Mat3) -> [Doubles<I>; 3] {
     let x = along64(matrix, &[axes[(0, 0)], axes[(1, 0)], axes[(2, 0)]]);
     let y = along64(matrix, &[axes[(0, 1)], axes[(1, 1)], axes[(2, 1)]]);
     let z = along64(matrix, &[axes[(0, 2)], axes[(1, 2)], axes[(2, 2)]]);
-    of_columns([x.array(), y.array(), z.array()])
+    [x, y, z]
 }
 
-/// A rotation after a turn about one of its own axes, the case of most joints: only two columns change.
+/// A rotation, by its columns, after a turn about one of its own axes.
 #[inline(always)]
-fn turned_about_axis<const AXIS: usize>(rotation: &Mat3, angle: f64) -> Mat3 {
-    let (sine, cosine) = angle.sin_cos();
+fn turned_about_axis<const AXIS: usize, I: Instructions>(
+    mut columns: [Doubles<I>; 3],
+    Turn { sine, cosine }: Turn,
+) -> [Doubles<I>; 3] {
     let [i, j] = [(AXIS + 1) % 3, (AXIS + 2) % 3];
-    let mut columns = columns(Plain, rotation).map(Doubles::array);
     let (x, y) = (columns[i], columns[j]);
     columns[i] = x * cosine + y * sine;
     columns[j] = y * cosine - x * sine;
-    of_columns(columns)
+    columns
 }
 
 /// The columns of a matrix in registers. The fourth lanes mean nothing.
@@ -417,8 +462,8 @@ pub(crate) fn columns<I: Instructions>(lanes: I, matrix: &Mat3) -> [Doubles<I>; 
 }
 
 #[inline(always)]
-fn of_columns([x, y, z]: [F64x4; 3]) -> Mat3 {
-    let ([x, y, z], [a, b, c]) = ([x.0, y.0, z.0], [0, 1, 2]);
+fn of_columns<I: Instructions>([x, y, z]: [Doubles<I>; 3]) -> Mat3 {
+    let ([x, y, z], [a, b, c]) = ([x.array().0, y.array().0, z.array().0], [0, 1, 2]);
     Mat3::new(x[a], y[a], z[a], x[b], y[b], z[b], x[c], y[c], z[c])
 }
 

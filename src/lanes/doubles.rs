@@ -4,7 +4,7 @@
 use std::ops::{Add, Mul, Sub};
 
 use super::F64x4;
-use super::four::Points64;
+use super::four::{Points64, TO_WHOLE};
 
 /// The operations of an instruction set on four doubles. None fuses a product and a sum, so every instruction set gives the same
 /// bits; they are those of the operations of the same names of [`F64x4`].
@@ -145,6 +145,13 @@ impl<I: DoubleInstructions> Doubles<I> {
         self.splatted(1.0).quotient(self)
     }
 
+    /// The nearest whole numbers, of two the even one. For numbers of at most 2^31 in size.
+    #[inline(always)]
+    pub fn nearest(self) -> Self {
+        let to_whole = self.splatted(TO_WHOLE);
+        (self + to_whole) - to_whole
+    }
+
     /// The numbers clamped to [0, 1].
     #[inline(always)]
     pub fn unit(self) -> Self {
@@ -239,6 +246,14 @@ impl<I: DoubleInstructions> Mul for Doubles<I> {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         self.of(self.lanes.mul64(self.numbers, other.numbers))
+    }
+}
+
+impl<I: DoubleInstructions> Add<f64> for Doubles<I> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, term: f64) -> Self {
+        self + self.splatted(term)
     }
 }
 

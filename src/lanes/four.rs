@@ -8,7 +8,7 @@ use super::each3;
 
 /// 1.5 * 2^52. The numbers around it are whole and one apart, so that a sum with it is rounded to a whole number. `f64::round`
 /// and `f64::ceil` are function calls on an x86-64 without SSE4.1.
-const TO_WHOLE: f64 = 6_755_399_441_055_744.0;
+pub(super) const TO_WHOLE: f64 = 6_755_399_441_055_744.0;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]

@@ -4,7 +4,8 @@
 use super::{JointKind, Robot};
 use crate::error::{Error, Result};
 use crate::lanes::{Instructions, Work, with_widest};
-use crate::pose::Pose;
+use crate::pose::{Pose, PoseColumns};
+use crate::turn::Turn;
 
 impl Robot {
     /// Appends the pose of every link at configuration q, in the world. `q` has `nq()` entries. Fails only in a custom
@@ -31,16 +32,22 @@ impl Work for LinkPoses<'_> {
     fn run<I: Instructions>(self, lanes: I) -> Result<()> {
         let Self { robot, q, poses } = self;
         let first = poses.len();
-        poses.reserve(robot.links().len());
-        for (index, link) in robot.links().iter().enumerate() {
+        let links = robot.links();
+        poses.resize(first + links.len(), Pose::IDENTITY);
+        let poses = &mut poses[first..];
+        let mut turns = Turns::new(robot, q);
+        // The link before, which most links follow: what was just stored would have to be waited for.
+        let mut before = PoseColumns::of(lanes, &Pose::IDENTITY);
+        for (index, link) in links.iter().enumerate() {
             let at = match link.parent {
-                None => link.at,
-                Some(parent) => poses[first + parent].compose_with(lanes, &link.at),
+                None => PoseColumns::of(lanes, &link.at),
+                Some(parent) if parent + 1 == index => before.compose(&link.at),
+                Some(parent) => PoseColumns::of(lanes, &poses[parent]).compose(&link.at),
             };
             let joint = &link.joint;
-            poses.push(match joint.kind {
+            before = match joint.kind {
                 JointKind::Fixed => at,
-                JointKind::Revolute => at.turned_about(&joint.axis, joint.position(q)),
+                JointKind::Revolute => at.turned_by(&joint.axis, turns.next(lanes)),
                 JointKind::Prismatic => at.shifted_along(&joint.axis, joint.position(q)),
                 _ => {
                     let motion = joint.motion(q).and_then(|motion| {
@@ -49,10 +56,46 @@ impl Work for LinkPoses<'_> {
                     });
                     let at_link =
                         |e: Error| e.within(format_args!("link {index} (\"{}\")", link.name));
-                    at.compose_with(lanes, &motion.map_err(at_link)?)
+                    at.compose(&motion.map_err(at_link)?)
                 }
-            });
+            };
+            poses[index] = before.pose();
         }
         Ok(())
+    }
+}
+
+/// The turns of a robot's revolute joints, in order, computed four at a time.
+struct Turns<'a> {
+    robot: &'a Robot,
+    q: &'a [f64],
+    /// How many were asked for.
+    count: usize,
+    four: [Turn; 4],
+}
+
+impl<'a> Turns<'a> {
+    fn new(robot: &'a Robot, q: &'a [f64]) -> Self {
+        Self {
+            robot,
+            q,
+            count: 0,
+            four: [Turn::NONE; 4],
+        }
+    }
+
+    #[inline(always)]
+    fn next<I: Instructions>(&mut self, lanes: I) -> Turn {
+        let lane = self.count % 4;
+        if lane == 0 {
+            let mut angles = [0.0; 4];
+            let next = self.robot.turning_links()[self.count..].iter();
+            for (angle, &link) in angles.iter_mut().zip(next) {
+                *angle = self.robot.links()[link].joint.position(self.q);
+            }
+            self.four = Turn::by_each(lanes, &angles);
+        }
+        self.count += 1;
+        self.four[lane]
     }
 }

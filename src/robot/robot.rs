@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::names::Names;
 use super::whole::Whole;
-use super::{Block, BlockKind, Coordinate, Joint, Semantics};
+use super::{Block, BlockKind, Coordinate, Joint, JointKind, Semantics};
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::Pose;
@@ -53,6 +53,8 @@ pub(super) struct Links {
     pub names: Names,
     /// Maps a joint's name to the link that it moves.
     pub joint_names: Names,
+    /// Those with revolute joints.
+    turning: Vec<usize>,
 }
 
 impl Links {
@@ -60,6 +62,9 @@ impl Links {
         let index = self.list.len();
         self.names.add(&link.name, index);
         self.joint_names.add(&link.joint_name, index);
+        if matches!(link.joint.kind, JointKind::Revolute) {
+            self.turning.push(index);
+        }
         self.list.push(link);
     }
 }
@@ -146,6 +151,11 @@ impl Robot {
     /// All links, parents before children.
     pub fn links(&self) -> &[Link] {
         &self.links.list
+    }
+
+    /// The links with revolute joints.
+    pub(super) fn turning_links(&self) -> &[usize] {
+        &self.links.turning
     }
 
     /// The number of the link with this name.
