@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_2_PI;
 
-use crate::lanes::{Doubles, Instructions, Plain};
+use crate::lanes::{Doubles, Instructions, Numbers, nearest};
 
 /// Angles up to this are computed here; larger ones by the standard library.
 const MAX_ANGLE: f64 = 1_048_576.0;
@@ -31,36 +31,24 @@ impl Turn {
 
     /// Of one angle: the bits of [`Turn::by_each`].
     pub fn by(angle: f64) -> Self {
-        Self::by_each(Plain, &[angle; 4])[0]
+        Self::of_rest(rest_of_turn(angle), angle)
     }
 
     /// Of four angles, each within 0.8 units in the last place and 1e-29. An angle that is not finite gives NaN.
     #[inline(always)]
     pub fn by_each<I: Instructions>(lanes: I, angles: &[f64; 4]) -> [Self; 4] {
-        let angle = Doubles::four(lanes, angles);
-        let quarters = (angle * FRAC_2_PI).nearest();
-        let [high, low] = without_quarters(angle, quarters);
-        let square = high * high;
-        let cube = square * high;
-        let sine = high + (cube * series(square, &SINE) + low * (square * -0.5 + 1.0));
-        let half = square * 0.5;
-        let about = half.splatted(1.0) - half;
-        let rounded_off = (half.splatted(1.0) - about) - half;
-        let rest = square * square * series(square, &COSINE) - high * low;
-        let cosine = about + (rounded_off + rest);
+        let rests = rest_of_turn(Doubles::four(lanes, angles)).map(|each| each.array().0);
+        std::array::from_fn(|lane| Self::of_rest(rests.map(|each| each[lane]), angles[lane]))
+    }
 
-        let [sines, cosines, quarters] = [sine, cosine, quarters].map(|each| each.array().0);
-        std::array::from_fn(|lane| match angles[lane].abs() <= MAX_ANGLE {
-            true => Self {
-                sine: sines[lane],
-                cosine: cosines[lane],
-            }
-            .after_quarters(quarters[lane] as i32),
-            false => {
-                let (sine, cosine) = angles[lane].sin_cos();
-                Self { sine, cosine }
-            }
-        })
+    /// By the sine and the cosine of what is left without a number of quarter turns, and that number.
+    #[inline(always)]
+    fn of_rest([sine, cosine, quarters]: [f64; 3], angle: f64) -> Self {
+        if angle.abs() <= MAX_ANGLE {
+            return Self { sine, cosine }.after_quarters(quarters as i32);
+        }
+        let (sine, cosine) = angle.sin_cos();
+        Self { sine, cosine }
     }
 
     /// Of the opposite angle where `sign` is -1, of this one where it is 1.
@@ -87,9 +75,23 @@ impl Turn {
     }
 }
 
+/// The sine and the cosine of what is left of angles without a number of quarter turns, and that number.
+#[inline(always)]
+fn rest_of_turn<N: Numbers>(angle: N) -> [N; 3] {
+    let quarters = nearest(angle * FRAC_2_PI);
+    let [high, low] = without_quarters(angle, quarters);
+    let square = high * high;
+    let sine = high + (square * high * series(square, &SINE) + low * (square * -0.5 + 1.0));
+    let half = square * 0.5;
+    let about = half * -1.0 + 1.0;
+    let rounded_off = (about * -1.0 + 1.0) - half;
+    let rest = square * square * series(square, &COSINE) - high * low;
+    [sine, about + (rounded_off + rest), quarters]
+}
+
 /// What is left of angles without a number of quarter turns, at most about 0.79, as a sum: a number and what its rounding left off.
 #[inline(always)]
-fn without_quarters<I: Instructions>(angle: Doubles<I>, quarters: Doubles<I>) -> [Doubles<I>; 2] {
+fn without_quarters<N: Numbers>(angle: N, quarters: N) -> [N; 2] {
     // Exact: the product has no more digits than the angle, and is near it.
     let first = angle - quarters * QUARTER[0];
     let product = quarters * QUARTER[1];
@@ -127,9 +129,9 @@ const COSINE: [f64; 7] = [
 
 /// The sum of a series without its first factor.
 #[inline(always)]
-fn series<I: Instructions, const N: usize>(x: Doubles<I>, factors: &[f64; N]) -> Doubles<I> {
-    let mut sum = x.splatted(factors[N - 1]);
-    for factor in factors[..N - 1].iter().rev() {
+fn series<N: Numbers, const COUNT: usize>(x: N, factors: &[f64; COUNT]) -> N {
+    let mut sum = x * factors[COUNT - 1] + factors[COUNT - 2];
+    for factor in factors[..COUNT - 2].iter().rev() {
         sum = sum * x + *factor;
     }
     sum

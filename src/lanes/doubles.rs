@@ -4,7 +4,7 @@
 use std::ops::{Add, Mul, Sub};
 
 use super::F64x4;
-use super::four::{Points64, TO_WHOLE};
+use super::four::Points64;
 
 /// The operations of an instruction set on four doubles. None fuses a product and a sum, so every instruction set gives the same
 /// bits; they are those of the operations of the same names of [`F64x4`].
@@ -143,13 +143,6 @@ impl<I: DoubleInstructions> Doubles<I> {
     #[inline(always)]
     pub fn inverse(self) -> Self {
         self.splatted(1.0).quotient(self)
-    }
-
-    /// The nearest whole numbers, of two the even one. For numbers of at most 2^31 in size.
-    #[inline(always)]
-    pub fn nearest(self) -> Self {
-        let to_whole = self.splatted(TO_WHOLE);
-        (self + to_whole) - to_whole
     }
 
     /// The numbers clamped to [0, 1].

@@ -8,7 +8,7 @@ use super::each3;
 
 /// 1.5 * 2^52. The numbers around it are whole and one apart, so that a sum with it is rounded to a whole number. `f64::round`
 /// and `f64::ceil` are function calls on an x86-64 without SSE4.1.
-pub(super) const TO_WHOLE: f64 = 6_755_399_441_055_744.0;
+const TO_WHOLE: f64 = 6_755_399_441_055_744.0;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
@@ -81,7 +81,7 @@ impl F64x4 {
     /// The nearest whole numbers, of two the even one. For numbers of at most 2^31 in size.
     #[inline(always)]
     pub fn nearest(self) -> Self {
-        self.map(|a| (a + TO_WHOLE) - TO_WHOLE)
+        nearest(self)
     }
 
     /// The same as integers, without calls or saturation; those of numbers out of range mean nothing.
@@ -151,6 +151,14 @@ impl Neg for F64x4 {
     }
 }
 
+impl Add<f64> for F64x4 {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, term: f64) -> Self {
+        self.map(|a| a + term)
+    }
+}
+
 impl Mul<f64> for F64x4 {
     type Output = Self;
     #[inline(always)]
@@ -162,29 +170,45 @@ impl Mul<f64> for F64x4 {
 /// Four points or vectors, as one [`F64x4`] per coordinate.
 pub type Points64 = [F64x4; 3];
 
-/// Four numbers: an [`F64x4`], or the register of an instruction set.
-pub trait FourNumbers:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f64, Output = Self>
+/// Four numbers: an [`F64x4`], or the register of an instruction set; or one number.
+pub trait Numbers:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Mul<f64, Output = Self>
+    + Add<f64, Output = Self>
 {
 }
 
-impl<N> FourNumbers for N where
-    N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N> + Mul<f64, Output = N>
+impl<N> Numbers for N where
+    N: Copy
+        + Add<Output = N>
+        + Sub<Output = N>
+        + Mul<Output = N>
+        + Mul<f64, Output = N>
+        + Add<f64, Output = N>
 {
+}
+
+/// The nearest whole numbers, of two the even one. For numbers of at most 2^31 in size.
+#[inline(always)]
+pub fn nearest<N: Numbers>(numbers: N) -> N {
+    (numbers + TO_WHOLE) + -TO_WHOLE
 }
 
 #[inline(always)]
-pub fn dot64<N: FourNumbers>(a: &[N; 3], b: &[N; 3]) -> N {
+pub fn dot64<N: Numbers>(a: &[N; 3], b: &[N; 3]) -> N {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline(always)]
-pub fn along64<N: FourNumbers>(points: &[N; 3], direction: &[f64; 3]) -> N {
+pub fn along64<N: Numbers>(points: &[N; 3], direction: &[f64; 3]) -> N {
     points[0] * direction[0] + points[1] * direction[1] + points[2] * direction[2]
 }
 
 #[inline(always)]
-pub fn cross64<N: FourNumbers>(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
+pub fn cross64<N: Numbers>(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -193,13 +217,13 @@ pub fn cross64<N: FourNumbers>(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
 }
 
 #[inline(always)]
-pub fn sub64<N: FourNumbers>(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
+pub fn sub64<N: Numbers>(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// The points at parameters of lines.
 #[inline(always)]
-pub fn at64<N: FourNumbers>(starts: &[N; 3], along: &[N; 3], parameters: N) -> [N; 3] {
+pub fn at64<N: Numbers>(starts: &[N; 3], along: &[N; 3], parameters: N) -> [N; 3] {
     [
         starts[0] + along[0] * parameters,
         starts[1] + along[1] * parameters,

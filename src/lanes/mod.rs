@@ -9,7 +9,7 @@ mod plain;
 
 pub use doubles::{DoubleTriple, Doubles};
 pub use eight::{Instructions, Lanes8, Triple};
-pub use four::{F64x4, Points64, along64, at64, cross64, dot64, splat64, sub64};
+pub use four::{F64x4, Numbers, Points64, along64, at64, cross64, dot64, nearest, splat64, sub64};
 pub use plain::Plain;
 
 #[cfg(target_arch = "x86_64")]
