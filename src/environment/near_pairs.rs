@@ -42,7 +42,9 @@ impl Snapshot {
         let is_stray =
             |tree: &ObjectTree, place: usize| tree.strays.binary_search(&(place as u32)).is_ok();
         // The strays of this state against all objects of the other, or of its own.
-        trees[1].visit_near(self.strays(), limit, near, |named, place, lower| {
+        let mut strays = near.take_bodies();
+        self.append_strays(&mut strays);
+        trees[1].visit_near(&strays, limit, near, |named, place, lower| {
             let is_within = other.is_none();
             if !(is_within && place <= named.number && is_stray(trees[1], place)) {
                 let [low, high] = [named.number.min(place), named.number.max(place)];
@@ -57,13 +59,16 @@ impl Snapshot {
         });
         if let Some(other) = other {
             // The strays of the other against what is in this state's tree.
-            trees[0].visit_near(other.strays(), limit, near, |named, place, lower| {
+            strays.clear();
+            other.append_strays(&mut strays);
+            trees[0].visit_near(&strays, limit, near, |named, place, lower| {
                 if !is_stray(trees[0], place) {
                     limit = visit([place, named.number], lower);
                 }
                 limit
             });
         }
+        near.keep_bodies(strays);
         let is_self = other.is_none();
         let Some(descent) = PairDescent::new(trees, is_self, limit) else {
             return;
@@ -84,9 +89,8 @@ impl Snapshot {
         });
     }
 
-    fn strays(&self) -> impl Iterator<Item = Named<'_>> {
-        let strays = self.tree().strays.iter();
-        strays.map(|&place| {
+    fn append_strays<'s>(&'s self, strays: &mut Vec<Named<'s>>) {
+        strays.extend(self.tree().strays.iter().map(|&place| {
             let object = self.object(place as usize);
             Named {
                 number: place as usize,
@@ -94,7 +98,7 @@ impl Snapshot {
                 pose: &object.pose,
                 bounds: self.bounds(place as usize),
             }
-        })
+        }));
     }
 }
 

@@ -16,7 +16,7 @@ impl ObjectTree {
     /// body, the object's place and a safe lower bound of the distance; it returns the limit from then on.
     pub fn visit_near<'b>(
         &self,
-        bodies: impl Iterator<Item = Named<'b>>,
+        bodies: &[Named<'b>],
         limit: f64,
         scratch: &mut NearScratch,
         visit: impl FnMut(&Named<'b>, usize, f64) -> f64,
@@ -24,19 +24,14 @@ impl ObjectTree {
         if self.is_empty() {
             return;
         }
-        let NearScratch { open, boxes, near } = scratch;
-        let mut all = emptied(std::mem::take(near));
-        // Gathered outside of the code for the widest instructions, into which iterators are not compiled.
-        all.extend(bodies);
         with_widest(Visit {
             objects: self,
-            bodies: &all,
+            bodies,
             limit,
-            open,
-            boxes,
+            open: &mut scratch.open,
+            boxes: &mut scratch.boxes,
             visit,
         });
-        *near = emptied(all);
     }
 }
 
@@ -45,7 +40,20 @@ impl ObjectTree {
 pub struct NearScratch {
     open: Vec<QueueEntry>,
     boxes: Vec<PackedBox>,
-    near: Vec<Named<'static>>,
+    /// For the bodies of the next traversal.
+    bodies: Vec<Named<'static>>,
+}
+
+impl NearScratch {
+    /// An empty list for the bodies of a traversal.
+    pub fn take_bodies<'b>(&mut self) -> Vec<Named<'b>> {
+        emptied(std::mem::take(&mut self.bodies))
+    }
+
+    /// Takes the list's memory back.
+    pub fn keep_bodies(&mut self, bodies: Vec<Named>) {
+        self.bodies = emptied(bodies);
+    }
 }
 
 /// A node or an object to be visited.

@@ -5,6 +5,7 @@ use super::object_offers::{ObjectsTerm, RSide};
 use super::scene::Scene;
 use super::target::Target;
 use crate::cobject::{BodyPairs, Induced};
+use crate::environment::Named;
 use crate::error::Result;
 
 impl Scene<'_> {
@@ -47,7 +48,12 @@ impl Scene<'_> {
             number: 0,
             snapshot,
         };
-        for (number, body, pose) in self.r_sides(links, usize::MAX, environment.serial()) {
+        let mut sides = Vec::new();
+        self.append_r_sides(links, usize::MAX, environment.serial(), &mut sides);
+        for Named {
+            number, body, pose, ..
+        } in sides
+        {
             let r = self.r_side(number);
             let chosen = snapshot.objects().filter(|o| objects.contains(o.id));
             for object in chosen.filter(|object| term.admits(r, object)) {

@@ -7,7 +7,6 @@ use super::target::{Placement, Target};
 use crate::body::Body;
 use crate::cobject::{Exceptions, InducedOptions, SObjects};
 use crate::environment::{Bounds, Named, NearScratch, SObject, Snapshot};
-use crate::pose::Pose;
 
 /// The r-side of a pair: a link's own body, or an s-object attached to the link.
 #[derive(Clone, Copy)]
@@ -76,7 +75,7 @@ struct ObjectOffers<'o, 's, 'a, 'm> {
 
 impl<'s> ObjectOffers<'_, 's, '_, '_> {
     /// Offers the objects in the world that the tree finds near the bodies.
-    fn offer_near(&mut self, bodies: impl Iterator<Item = Named<'s>>, scratch: &mut NearScratch) {
+    fn offer_near(&mut self, bodies: &[Named<'s>], scratch: &mut NearScratch) {
         let snapshot = self.term.snapshot;
         let cutoff = self.candidates.cutoff(self.term.options);
         snapshot
@@ -89,30 +88,26 @@ impl<'s> ObjectOffers<'_, 's, '_, '_> {
     }
 
     /// Offers those of the objects with these ids that are in the world.
-    fn offer_chosen(&mut self, bodies: impl Iterator<Item = Named<'s>>, ids: &[u64]) {
+    fn offer_chosen(&mut self, bodies: &[Named<'s>], ids: &[u64]) {
         let snapshot = self.term.snapshot;
         for named in bodies {
             let places = ids.iter().filter_map(|id| snapshot.place_of(*id));
             for place in places.filter(|&place| snapshot.object(place).attachment.is_none()) {
                 let (at, other) = (SObjectAt::in_world(snapshot, place), snapshot.bounds(place));
-                self.offer(&named, at, other, f64::NEG_INFINITY);
+                self.offer(named, at, other, f64::NEG_INFINITY);
             }
         }
     }
 
     /// Offers the set's objects that are attached to links.
-    fn offer_attached(
-        &mut self,
-        bodies: impl Iterator<Item = Named<'s>> + Clone,
-        environment: u64,
-    ) {
+    fn offer_attached(&mut self, bodies: &[Named<'s>], environment: u64) {
         let objects = self.term.objects;
         let held = self.scene.held_of(environment);
         let first_held = self.scene.space().link_count();
         for (i, held) in held.filter(|(_, held)| objects.contains(held.object.id)) {
             let other = &self.scene.bounds()[first_held + i];
-            for named in bodies.clone() {
-                self.offer(&named, held.as_s_side(), other, f64::NEG_INFINITY);
+            for named in bodies {
+                self.offer(named, held.as_s_side(), other, f64::NEG_INFINITY);
             }
         }
     }
@@ -153,27 +148,22 @@ impl<'a> Scene<'a> {
         scratch: &mut NearScratch,
     ) {
         let environment = term.objects.environment().serial();
-        let bounds = self.bounds();
-        let bodies = self.r_sides(term.links, candidates.last_link(), environment);
-        let bodies = bodies.map(|(number, body, pose)| Named {
-            number,
-            body,
-            pose,
-            bounds: &bounds[number],
-        });
+        let mut bodies = scratch.take_bodies();
+        self.append_r_sides(term.links, candidates.last_link(), environment, &mut bodies);
         let mut offers = ObjectOffers {
             scene: self,
             term,
             candidates,
         };
         match term.objects {
-            SObjects::All(_) => offers.offer_near(bodies.clone(), scratch),
-            SObjects::Some(_, ids) => offers.offer_chosen(bodies.clone(), ids),
+            SObjects::All(_) => offers.offer_near(&bodies, scratch),
+            SObjects::Some(_, ids) => offers.offer_chosen(&bodies, ids),
         }
-        offers.offer_attached(bodies, environment);
+        offers.offer_attached(&bodies, environment);
+        scratch.keep_bodies(bodies);
     }
 
-    /// What carries a number of [`Scene::r_sides`].
+    /// What carries a number of [`Scene::append_r_sides`].
     #[inline(always)]
     pub(super) fn r_side(&self, number: usize) -> RSide {
         match number.checked_sub(self.space().link_count()) {
@@ -191,7 +181,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// The user data of a body with a number of [`Scene::r_sides`].
+    /// The user data of a body with a number of [`Scene::append_r_sides`].
     fn r_data(&self, number: usize, body: &Body) -> usize {
         match number.checked_sub(self.space().link_count()) {
             None => body.data(),
@@ -199,27 +189,40 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// The bodies of links and the s-objects attached to them, which are numbered after all links; none of links behind the last.
-    pub(super) fn r_sides(
-        &self,
+    /// Appends the bodies of links and the s-objects attached to them, which are numbered after all links; none of links behind the
+    /// last.
+    pub(super) fn append_r_sides<'s>(
+        &'s self,
         links: &[usize],
         last_link: usize,
         environment: u64,
-    ) -> impl Iterator<Item = (usize, &Body, &Pose)> + Clone {
-        let is_asked = move |link: usize| link <= last_link;
-        let with_body = move |&link: &usize| {
-            let (body, pose) = self.link(link).filter(|_| is_asked(link))?;
-            Some((link, body, pose))
-        };
-        let of_links = links.iter().filter_map(with_body);
+        sides: &mut Vec<Named<'s>>,
+    ) {
+        let bounds = self.bounds();
+        for &link in links {
+            if link <= last_link
+                && let Some((body, pose)) = self.link(link)
+            {
+                sides.push(Named {
+                    number: link,
+                    body,
+                    pose,
+                    bounds: &bounds[link],
+                });
+            }
+        }
         let first_held = self.space().link_count();
-        let of_held = self
-            .held_of(environment)
-            .filter(move |(_, held)| {
-                is_asked(held.attachment.link) && links.contains(&held.attachment.link)
-            })
-            .map(move |(i, held)| (first_held + i, &*held.object.body, &held.pose));
-        of_links.chain(of_held)
+        for (i, held) in self.held_of(environment) {
+            let link = held.attachment.link;
+            if link <= last_link && links.contains(&link) {
+                sides.push(Named {
+                    number: first_held + i,
+                    body: &held.object.body,
+                    pose: &held.pose,
+                    bounds: &bounds[first_held + i],
+                });
+            }
+        }
     }
 }
 
