@@ -126,16 +126,13 @@ fn check(state: &Snapshot, model: &Model, probe: &Body, random: &mut Random) {
             pose: &at,
             bounds: &Bounds::of(Plain, probe, &at),
         };
-        state.tree().visit_near(
-            [named].into_iter(),
-            limit,
-            &mut scratch,
-            |_, place, at_least| {
+        state
+            .tree()
+            .visit_near(&[named], limit, &mut scratch, |_, place, at_least| {
                 let is_new = found.insert(state.object(place).id, at_least).is_none();
                 assert!(is_new, "an object was visited twice");
                 limit
-            },
-        );
+            });
         for (id, (body, pose, is_attached)) in model {
             let answer = context.pair_distance((probe, &at), (body, pose), f64::INFINITY);
             let distance = answer.unwrap().distance;

@@ -25,7 +25,7 @@ fn looked_at(environment: &Environment, body: &Body, at: &[Pose], limit: f64) ->
         };
         snapshot
             .tree()
-            .visit_near([named].into_iter(), limit, &mut scratch, |_, _, _| {
+            .visit_near(&[named], limit, &mut scratch, |_, _, _| {
                 count += 1;
                 limit
             });
