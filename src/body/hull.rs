@@ -10,8 +10,9 @@ const MAX_POINTS: usize = 1 << 14;
 
 impl Body {
     /// The convex hull of the body's primitives, as a body of one polyhedron in the same frame, and how far rounding may leave a point
-    /// outside of it; the body itself if it is one primitive. `None` for planar bodies, for smooth ones, for those of many points, and where
-    /// all points are in a plane. Computed on first use.
+    /// outside of it; the body itself if it is one primitive. `None` for planar bodies, for a single smooth primitive, for bodies of many
+    /// points, and where all points are in a plane. What is smooth among several is held by the points that bound it, so that the hull may
+    /// have another centre than the body. Computed on first use.
     pub fn hull(&self) -> Option<(&Body, f64)> {
         if let Some(only) = self.primitives().only() {
             return only.shape.smooth().is_none().then_some((self, 0.0));

@@ -127,6 +127,7 @@ impl<'a> MovingPair<'a> {
             self.hulls.groups.set(HULLS_MEET);
             return false;
         };
+        let moved = moved.seen_from(&(a.center() - self.a.body.center()));
         let mut over = self.placed_as([a, b], moved);
         let Some(places) = over.pairing.only_places() else {
             return false;
@@ -289,7 +290,7 @@ impl<'a> MovingPair<'a> {
         self.placed_as(self.bodies(), moved)
     }
 
-    /// The same for bodies that stand for the two.
+    /// The same for bodies that stand for the two; `moved` is of the centre of the first.
     #[inline]
     fn placed_as<'b, L: TwistLists>(
         &self,

@@ -4,7 +4,7 @@ use smallvec::SmallVec;
 
 use crate::convex::{Extension, Sweep, SweepTwist};
 use crate::pair::{Motion32, Pairing, SweptLimits, Twist32};
-use crate::pose::{Pose, Vec3};
+use crate::pose::{Pose, Vec3, turned};
 
 /// The lists that hold one entry for each twist of a piece. An interval has one twist, and its list is an array, so that loops over it
 /// cost nothing.
@@ -54,6 +54,21 @@ pub(super) struct Moved<L: TwistLists> {
     /// As [`Sweep::bends`].
     pub bends: [f64; 2],
     pub kinematics_error: f64,
+}
+
+impl<L: TwistLists> Moved<L> {
+    /// The same with the displacements of a point that A carries, `arm` from its centre, in A's frame.
+    pub fn seen_from(self, arm: &Vec3) -> Self {
+        let arm = turned(&self.poses[0].rotation, arm);
+        let displacements = L::map(&self.displacements, |by| Displacement {
+            linear: by.linear + by.angular.cross(&arm),
+            ..*by
+        });
+        Self {
+            displacements,
+            ..self
+        }
+    }
 }
 
 /// What is known of a pair at the beginning of a piece.

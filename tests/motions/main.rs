@@ -8,6 +8,7 @@ mod certificates;
 mod clear_pairs;
 mod clearance;
 mod compound;
+mod compound_hulls;
 mod curves;
 mod discs;
 mod forged;
