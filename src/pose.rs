@@ -210,10 +210,34 @@ impl<I: Instructions> PoseColumns<I> {
     /// See [`Pose::compose`].
     #[inline(always)]
     pub fn compose(&self, child: &Pose) -> Self {
-        let moved = along64(&self.axes, &of_vector(&child.translation));
+        let child_at = self.turned_axes(&child.rotation);
         Self {
-            axes: turned_columns(&self.axes, &child.rotation),
-            origin: moved + self.origin,
+            origin: self.turned(&child.translation) + self.origin,
+            ..child_at
+        }
+    }
+
+    /// A vector of the pose's own frame.
+    #[inline(always)]
+    pub fn turned(&self, v: &Vec3) -> Doubles<I> {
+        along64(&self.axes, &of_vector(v))
+    }
+
+    /// Other axes, given in the pose's own frame, at the same origin.
+    #[inline(always)]
+    pub fn turned_axes(&self, axes: &Mat3) -> Self {
+        Self {
+            axes: turned_columns(&self.axes, axes),
+            ..*self
+        }
+    }
+
+    /// The pose with its origin moved.
+    #[inline(always)]
+    pub fn moved(&self, way: Doubles<I>) -> Self {
+        Self {
+            origin: self.origin + way,
+            ..*self
         }
     }
 
@@ -233,11 +257,7 @@ impl<I: Instructions> PoseColumns<I> {
     /// See [`Pose::shifted_along`].
     #[inline(always)]
     pub fn shifted_along(&self, axis: &Vec3, length: f64) -> Self {
-        let direction = along64(&self.axes, &of_vector(axis));
-        Self {
-            origin: self.origin + direction * length,
-            ..*self
-        }
+        self.moved(self.turned(axis) * length)
     }
 }
 

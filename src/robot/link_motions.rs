@@ -7,8 +7,9 @@ use smallvec::SmallVec;
 use super::circular_arc::CircularArc;
 use super::course::{Course, CourseState};
 use super::motion_rates::ChainRates;
-use super::motion_state::MotionState;
+use super::motion_state::{MotionColumns, MotionState};
 use super::{JointKind, Link, Robot};
+use crate::lanes::{Instructions, Work, with_widest};
 use crate::nonzero::length;
 use crate::pose::{Pose, Vec3};
 use crate::tolerance::EPSILON;
@@ -114,20 +115,46 @@ impl LinkStates {
     /// A link's state. Only of links whose motion is known.
     pub fn of(&mut self, motions: &LinkMotions, link: usize) -> &MotionState {
         if !self.is_known[link] {
-            let mut path: SmallVec<[usize; 16]> = SmallVec::new();
-            let mut next = Some(link);
-            while let Some(index) = next.filter(|&index| !self.is_known[index]) {
-                path.push(index);
-                next = motions.links[index].parent;
-            }
-            let mut state = next.map_or(MotionState::REST, |index| self.states[index]);
-            for index in path.into_iter().rev() {
-                motions.advance(&mut state, index, self.time, &self.given);
-                self.states[index] = state;
-                self.is_known[index] = true;
-            }
+            with_widest(FindState {
+                states: self,
+                motions,
+                link,
+            });
         }
         &self.states[link]
+    }
+}
+
+/// Finds the state of a link, and of those that carry it, that is not known yet.
+struct FindState<'a> {
+    states: &'a mut LinkStates,
+    motions: &'a LinkMotions,
+    link: usize,
+}
+
+impl Work for FindState<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, lanes: I) {
+        let Self {
+            states,
+            motions,
+            link,
+        } = self;
+        let mut path: SmallVec<[usize; 16]> = SmallVec::new();
+        let mut next = Some(link);
+        while let Some(index) = next.filter(|&index| !states.is_known[index]) {
+            path.push(index);
+            next = motions.links[index].parent;
+        }
+        let from = next.map_or(&MotionState::REST, |index| &states.states[index]);
+        let mut state = MotionColumns::of(lanes, from);
+        for index in path.into_iter().rev() {
+            motions.advance(&mut state, index, states.time, &states.given);
+            states.states[index] = state.state();
+            states.is_known[index] = true;
+        }
     }
 }
 
@@ -154,8 +181,15 @@ impl LinkMotions {
         });
     }
 
-    /// From a link's state in the world of its parent to its own.
-    fn advance(&self, state: &mut MotionState, link: usize, t: f64, given: &[CourseState]) {
+    /// From the state of a link's parent to its own.
+    #[inline(always)]
+    fn advance<I: Instructions>(
+        &self,
+        state: &mut MotionColumns<I>,
+        link: usize,
+        t: f64,
+        given: &[CourseState],
+    ) {
         let [first, end] = self.links[link].elements;
         for element in &self.elements[first..end] {
             match element {

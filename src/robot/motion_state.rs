@@ -2,7 +2,9 @@
 
 use super::circular_arc::CircularArc;
 use super::course::CourseState;
-use crate::pose::{Pose, Vec3, turned, turned_axes};
+use crate::lanes::{Doubles, Instructions, Plain};
+use crate::pose::{Pose, PoseColumns, Vec3, vector};
+use crate::turn::Turn;
 
 /// Where a frame is at one time, and how it moves in the world.
 #[derive(Clone, Copy, Debug)]
@@ -48,59 +50,106 @@ impl MotionState {
     }
 
     /// A frame that is fixed to this one.
-    #[inline]
-    pub fn fixed(mut self, pose: &Pose) -> Self {
-        self.push_fixed(pose);
-        self
+    pub fn fixed(&self, pose: &Pose) -> Self {
+        let mut frame = MotionColumns::of(Plain, self);
+        frame.push_fixed(pose);
+        frame.state()
+    }
+}
+
+/// A motion state in registers: what was just stored would have to be waited for before the next joint. The fourth lanes mean nothing.
+#[derive(Clone, Copy)]
+pub(super) struct MotionColumns<I: Instructions> {
+    pose: PoseColumns<I>,
+    linear: Doubles<I>,
+    angular: Doubles<I>,
+    linear_acceleration: Doubles<I>,
+    angular_acceleration: Doubles<I>,
+}
+
+impl<I: Instructions> MotionColumns<I> {
+    #[inline(always)]
+    pub fn of(lanes: I, state: &MotionState) -> Self {
+        Self {
+            pose: PoseColumns::of(lanes, &state.pose),
+            linear: in_register(lanes, &state.linear),
+            angular: in_register(lanes, &state.angular),
+            linear_acceleration: in_register(lanes, &state.linear_acceleration),
+            angular_acceleration: in_register(lanes, &state.angular_acceleration),
+        }
     }
 
-    pub(super) fn push_fixed(&mut self, pose: &Pose) {
+    #[inline(always)]
+    pub fn state(&self) -> MotionState {
+        MotionState {
+            pose: self.pose.pose(),
+            linear: vector(self.linear),
+            angular: vector(self.angular),
+            linear_acceleration: vector(self.linear_acceleration),
+            angular_acceleration: vector(self.angular_acceleration),
+        }
+    }
+
+    #[inline(always)]
+    pub fn push_fixed(&mut self, pose: &Pose) {
         // Many joints stand where the one before them stands.
         if pose.translation != Vec3::zeros() {
-            let arm = turned(&self.pose.rotation, &pose.translation);
-            self.carry(&arm);
+            self.carry(self.pose.turned(&pose.translation));
         }
-        self.pose.rotation = turned_axes(&self.pose.rotation, &pose.rotation);
+        self.pose = self.pose.turned_axes(&pose.rotation);
     }
 
-    /// Puts the origin `arm` away, where it moves with the frame.
-    #[inline]
-    fn carry(&mut self, arm: &Vec3) {
-        (self.linear, self.linear_acceleration) = (self.velocity(arm), self.acceleration(arm));
-        self.pose.translation += arm;
+    /// Puts the origin `arm` away, where it moves with the frame: see [`MotionState::velocity`] and [`MotionState::acceleration`].
+    #[inline(always)]
+    fn carry(&mut self, arm: Doubles<I>) {
+        let velocity = cross(self.angular, arm);
+        let swing = cross(self.angular, velocity);
+        self.linear = self.linear + velocity;
+        self.linear_acceleration =
+            self.linear_acceleration + cross(self.angular_acceleration, arm) + swing;
+        self.pose = self.pose.moved(arm);
     }
 
-    pub(super) fn turn(&mut self, axis: &Vec3, angle: &CourseState) {
-        let direction = turned(&self.pose.rotation, axis);
+    #[inline(always)]
+    pub fn turn(&mut self, axis: &Vec3, angle: &CourseState) {
+        let direction = self.pose.turned(axis);
         let turn = direction * angle.rate;
-        self.angular_acceleration += self.angular.cross(&turn) + direction * angle.acceleration;
-        self.angular += turn;
-        self.pose = self.pose.turned_about(axis, angle.value);
+        self.angular_acceleration = self.angular_acceleration
+            + (cross(self.angular, turn) + direction * angle.acceleration);
+        self.angular = self.angular + turn;
+        self.pose = self.pose.turned_by(axis, Turn::by(angle.value));
     }
 
-    pub(super) fn shift(&mut self, axis: &Vec3, length: &CourseState) {
-        let direction = turned(&self.pose.rotation, axis);
-        self.carry(&(direction * length.value));
-        let velocity = direction * length.rate;
-        self.linear += velocity;
-        self.linear_acceleration +=
-            2.0 * self.angular.cross(&velocity) + direction * length.acceleration;
+    #[inline(always)]
+    pub fn shift(&mut self, axis: &Vec3, length: &CourseState) {
+        let direction = self.pose.turned(axis);
+        self.carry(direction * length.value);
+        self.slide(direction * length.rate, direction * length.acceleration);
+    }
+
+    /// Takes in a velocity and an acceleration of the origin within the frame.
+    #[inline(always)]
+    fn slide(&mut self, velocity: Doubles<I>, acceleration: Doubles<I>) {
+        self.linear = self.linear + velocity;
+        self.linear_acceleration =
+            self.linear_acceleration + (cross(self.angular, velocity) * 2.0 + acceleration);
     }
 
     /// The origin's way is the integral of its velocity, `across` turned with the frame.
-    pub(super) fn turn_on_arc(&mut self, arc: &CircularArc, t: f64) {
+    #[inline(always)]
+    pub fn turn_on_arc(&mut self, arc: &CircularArc, t: f64) {
         let CircularArc { axis, rate, across } = arc;
         let angle = rate * t;
-        let (sin, cos) = angle.sin_cos();
-        let half = (0.5 * angle).sin();
+        let Turn { sine, cosine } = Turn::by(angle);
+        let half = Turn::by(0.5 * angle).sine;
         let inwards = axis.cross(across);
-        let in_world = |v: Vec3| turned(&self.pose.rotation, &v);
-        let way = in_world((across * sin + inwards * (2.0 * half * half)) / *rate);
-        let velocity = in_world(across * cos + inwards * sin);
-        let acceleration = in_world((inwards * cos - across * sin) * *rate);
-        self.carry(&way);
-        self.linear += velocity;
-        self.linear_acceleration += 2.0 * self.angular.cross(&velocity) + acceleration;
+        let way = (across * sine + inwards * (2.0 * half * half)) / *rate;
+        let velocity = across * cosine + inwards * sine;
+        let acceleration = (inwards * cosine - across * sine) * *rate;
+        let [way, velocity, acceleration] =
+            [way, velocity, acceleration].map(|v| self.pose.turned(&v));
+        self.carry(way);
+        self.slide(velocity, acceleration);
         self.turn(
             axis,
             &CourseState {
@@ -110,4 +159,15 @@ impl MotionState {
             },
         );
     }
+}
+
+/// The cross product of the first three lanes.
+#[inline(always)]
+fn cross<I: Instructions>(a: Doubles<I>, b: Doubles<I>) -> Doubles<I> {
+    (a * b.rolled() - a.rolled() * b).rolled()
+}
+
+#[inline(always)]
+fn in_register<I: Instructions>(lanes: I, v: &Vec3) -> Doubles<I> {
+    Doubles::four(lanes, &[v.x, v.y, v.z, 0.0])
 }
