@@ -6,6 +6,7 @@
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::{Mat3, Pose, Vec3, rotation_about};
+use crate::turn::Turn;
 
 /// Below this cos(pitch), the yaw and roll axes coincide up to rounding.
 const SINGULAR: f64 = 1e-12;
@@ -21,9 +22,9 @@ pub enum AngularFrame {
 
 /// The rotation of eq. (6), body to inertial frame, from yaw, pitch and roll in radians.
 pub fn euler_to_rotation([yaw, pitch, roll]: [f64; 3]) -> Mat3 {
-    let (sy, cy) = yaw.sin_cos();
-    let (sp, cp) = pitch.sin_cos();
-    let (sr, cr) = roll.sin_cos();
+    let (sy, cy) = Turn::by(yaw).pair();
+    let (sp, cp) = Turn::by(pitch).pair();
+    let (sr, cr) = Turn::by(roll).pair();
     Mat3::new(
         cp * cy,
         -cr * sp * cy + sr * sy,
@@ -45,7 +46,7 @@ pub fn rotation_to_euler(r: &Mat3) -> [f64; 3] {
     if cos_pitch > SINGULAR {
         let yaw = (-r[(2, 0)]).atan2(r[(0, 0)]);
         // (7) has -T23 / T22, which loses digits as cos(pitch) falls. With the yaw removed first, the same angle is accurate.
-        let (s, c) = yaw.sin_cos();
+        let (s, c) = Turn::by(yaw).pair();
         let roll = (s * r[(0, 1)] + c * r[(2, 1)]).atan2(s * r[(0, 2)] + c * r[(2, 2)]);
         [yaw, pitch, roll]
     } else {
@@ -55,15 +56,15 @@ pub fn rotation_to_euler(r: &Mat3) -> [f64; 3] {
 
 /// The matrix of eq. (31): angular velocity from the rates of yaw, pitch and roll.
 pub fn euler_rates([yaw, pitch, roll]: [f64; 3], frame: AngularFrame) -> Mat3 {
-    let (sp, cp) = pitch.sin_cos();
+    let (sp, cp) = Turn::by(pitch).pair();
     match frame {
         AngularFrame::Body => {
-            let (sr, cr) = roll.sin_cos();
+            let (sr, cr) = Turn::by(roll).pair();
             Mat3::new(sp, 0.0, 1.0, cr * cp, sr, 0.0, -sr * cp, cr, 0.0)
         }
         // The matrix of (31), rotated by (6).
         AngularFrame::World => {
-            let (sy, cy) = yaw.sin_cos();
+            let (sy, cy) = Turn::by(yaw).pair();
             Mat3::new(0.0, sy, cp * cy, 1.0, 0.0, sp, 0.0, cy, -cp * sy)
         }
     }
@@ -72,7 +73,7 @@ pub fn euler_rates([yaw, pitch, roll]: [f64; 3], frame: AngularFrame) -> Mat3 {
 /// The inverse of [`euler_rates`]: rates of yaw, pitch and roll from an angular velocity. Refused where cos(pitch) = 0.
 pub fn euler_rates_inverse(angles: [f64; 3], frame: AngularFrame) -> Result<Mat3> {
     let [yaw, pitch, roll] = angles;
-    let (sp, cp) = pitch.sin_cos();
+    let (sp, cp) = Turn::by(pitch).pair();
     if cp.abs() <= SINGULAR {
         return Err(Error::new(
             ErrorKind::Degenerate,
@@ -84,11 +85,11 @@ pub fn euler_rates_inverse(angles: [f64; 3], frame: AngularFrame) -> Result<Mat3
     let t = sp / cp;
     Ok(match frame {
         AngularFrame::Body => {
-            let (sr, cr) = roll.sin_cos();
+            let (sr, cr) = Turn::by(roll).pair();
             Mat3::new(0.0, cr / cp, -sr / cp, 0.0, sr, cr, 1.0, -cr * t, sr * t)
         }
         AngularFrame::World => {
-            let (sy, cy) = yaw.sin_cos();
+            let (sy, cy) = Turn::by(yaw).pair();
             Mat3::new(-t * cy, 1.0, t * sy, sy, 0.0, cy, cy / cp, 0.0, -sy / cp)
         }
     })

@@ -51,6 +51,11 @@ impl Turn {
         Self { sine, cosine }
     }
 
+    /// The sine, and the cosine.
+    pub fn pair(self) -> (f64, f64) {
+        (self.sine, self.cosine)
+    }
+
     /// Of the opposite angle where `sign` is -1, of this one where it is 1.
     #[inline(always)]
     pub fn signed(self, sign: f64) -> Self {

@@ -112,12 +112,17 @@ impl<I: Instructions> MotionColumns<I> {
 
     #[inline(always)]
     pub fn turn(&mut self, axis: &Vec3, angle: &CourseState) {
+        self.turn_by(axis, Turn::by(angle.value), angle.rate, angle.acceleration);
+    }
+
+    #[inline(always)]
+    fn turn_by(&mut self, axis: &Vec3, turn: Turn, rate: f64, acceleration: f64) {
         let direction = self.pose.turned(axis);
-        let turn = direction * angle.rate;
-        self.angular_acceleration = self.angular_acceleration
-            + (cross(self.angular, turn) + direction * angle.acceleration);
-        self.angular = self.angular + turn;
-        self.pose = self.pose.turned_by(axis, Turn::by(angle.value));
+        let angular = direction * rate;
+        self.angular_acceleration =
+            self.angular_acceleration + (cross(self.angular, angular) + direction * acceleration);
+        self.angular = self.angular + angular;
+        self.pose = self.pose.turned_by(axis, turn);
     }
 
     #[inline(always)]
@@ -140,7 +145,8 @@ impl<I: Instructions> MotionColumns<I> {
     pub fn turn_on_arc(&mut self, arc: &CircularArc, t: f64) {
         let CircularArc { axis, rate, across } = arc;
         let angle = rate * t;
-        let Turn { sine, cosine } = Turn::by(angle);
+        let turn = Turn::by(angle);
+        let Turn { sine, cosine } = turn;
         let half = Turn::by(0.5 * angle).sine;
         let inwards = axis.cross(across);
         let way = (across * sine + inwards * (2.0 * half * half)) / *rate;
@@ -150,14 +156,7 @@ impl<I: Instructions> MotionColumns<I> {
             [way, velocity, acceleration].map(|v| self.pose.turned(&v));
         self.carry(way);
         self.slide(velocity, acceleration);
-        self.turn(
-            axis,
-            &CourseState {
-                value: angle,
-                rate: *rate,
-                acceleration: 0.0,
-            },
-        );
+        self.turn_by(axis, turn, *rate, 0.0);
     }
 }
 
