@@ -152,9 +152,10 @@ impl<I: Instructions> MotionColumns<I> {
         let way = (across * sine + inwards * (2.0 * half * half)) / *rate;
         let velocity = across * cosine + inwards * sine;
         let acceleration = (inwards * cosine - across * sine) * *rate;
-        let [way, velocity, acceleration] =
-            [way, velocity, acceleration].map(|v| self.pose.turned(&v));
-        self.carry(way);
+        // Closures around these would be compiled without the processor's instructions.
+        let (velocity, acceleration) =
+            (self.pose.turned(&velocity), self.pose.turned(&acceleration));
+        self.carry(self.pose.turned(&way));
         self.slide(velocity, acceleration);
         self.turn_by(axis, turn, *rate, 0.0);
     }
