@@ -99,6 +99,10 @@ pub mod pair;
 #[doc(hidden)]
 pub mod depth;
 
+// Bounds of bodies at poses: what decides which pairs are looked at.
+#[doc(hidden)]
+pub mod body_bounds;
+
 // Links and joints, forward kinematics, Jacobians, motion bounds.
 pub mod robot;
 

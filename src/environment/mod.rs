@@ -1,8 +1,6 @@
 //! Environments: the s-objects, added, moved and deleted (§2.2.4, operation 2).
 
 mod attachment;
-mod bounds;
-mod box_frame;
 pub mod box_tree;
 #[allow(clippy::module_inception)]
 mod environment;
@@ -14,8 +12,6 @@ mod tree_limits;
 mod visit_near;
 
 pub use attachment::Attachment;
-pub use bounds::Bounds;
-pub use box_frame::{BoxFrame, FrameLimits};
 pub use environment::{Addition, Change, Environment};
 pub use near_pairs::NearPairScratch;
 pub use object_tree::ObjectTree;

@@ -1,9 +1,9 @@
 //! The traversal to the pairs of objects that are near each other, within an environment or between two.
 
-use super::box_frame::{BoxFrame, FrameLimits};
 use super::object_tree::ObjectTree;
 use super::snapshot::Snapshot;
 use super::visit_near::{Named, NearScratch};
+use crate::body_bounds::{BoxFrame, FrameLimits};
 use crate::boxes::{EightBoxes, Extent, PackedBox};
 use crate::environment::box_tree::{BOX, BoxTree};
 use crate::lanes::{Instructions, Work, each3, with_widest};

@@ -3,9 +3,9 @@
 
 use std::sync::Arc;
 
-use super::bounds::{Bounds, slack};
 use super::places::{Place, Places};
 use super::tree_limits::{FAR, TreeLimits};
+use crate::body_bounds::{Bounds, slack};
 use crate::boxes::Extent;
 use crate::environment::box_tree::{BOX, BoxTree, BoxTreeChanges, Boxes, OrientedBox};
 use crate::index_set::IndexSet;
@@ -261,6 +261,11 @@ impl Boxes for Places {
 
     #[inline(always)]
     fn oriented(&self, place: usize) -> OrientedBox {
-        self[place].bounds.oriented_box()
+        let bounds = &self[place].bounds;
+        OrientedBox {
+            center: bounds.box_center,
+            axes: bounds.axes,
+            half: bounds.half,
+        }
     }
 }

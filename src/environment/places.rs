@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::attachment::Attachment;
-use super::bounds::Bounds;
 use crate::body::Body;
+use crate::body_bounds::Bounds;
 use crate::cow_vec::CowVec;
 use crate::pose::Pose;
 use crate::user_data::UserData;

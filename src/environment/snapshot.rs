@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use super::attachment::Attachment;
-use super::bounds::Bounds;
 use super::object_tree::ObjectTree;
 use super::places::{Place, Places, SObject};
+use crate::body_bounds::Bounds;
 use crate::cow_vec::CowVec;
 use crate::index_set::IndexSet;
 use crate::lanes::{Instructions, Work, with_widest};

@@ -1,8 +1,8 @@
 //! Decides which objects are in the tree and which are strays. The tree's boxes share one scale in single precision, so an
 //! object that is very far away, or has a very large error, would loosen the bounds of all others.
 
-use super::bounds::{Bounds, slack};
 use super::places::Places;
+use crate::body_bounds::{Bounds, slack};
 use crate::pair::ROUNDING;
 use crate::pose::Vec3;
 

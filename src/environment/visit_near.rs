@@ -1,9 +1,8 @@
 //! The traversal to the objects near a body.
 
-use super::bounds::Bounds;
-use super::box_frame::{BoxFrame, FrameLimits};
 use super::object_tree::ObjectTree;
 use crate::body::Body;
+use crate::body_bounds::{Bounds, BoxFrame, FrameLimits};
 use crate::boxes::{EightBoxes, PackedBox, WideNode};
 use crate::environment::box_tree::BOX;
 use crate::lanes::{Instructions, Work, with_widest};

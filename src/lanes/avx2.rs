@@ -93,6 +93,12 @@ impl Instructions for Avx2 {
     }
 
     #[inline(always)]
+    fn rounded(self, first: __m256d, more: __m256d) -> __m256 {
+        // SAFETY: the processor has the instructions.
+        unsafe { _mm256_set_m128(_mm256_cvtpd_ps(more), _mm256_cvtpd_ps(first)) }
+    }
+
+    #[inline(always)]
     fn array(self, a: __m256) -> [f32; 8] {
         // SAFETY: both are eight numbers, and the processor has the instruction.
         unsafe { std::mem::transmute::<__m256, [f32; 8]>(a) }
@@ -305,6 +311,16 @@ impl DoubleInstructions for Avx2 {
     fn chosen64(self, a: __m256d, b: __m256d, if_less: __m256d, otherwise: __m256d) -> __m256d {
         // SAFETY: the processor has the instructions.
         unsafe { _mm256_blendv_pd(otherwise, if_less, _mm256_cmp_pd::<_CMP_LT_OQ>(a, b)) }
+    }
+
+    #[inline(always)]
+    fn kept64(self, a: __m256d, lanes: u32) -> __m256d {
+        // SAFETY: the processor has the instructions.
+        unsafe {
+            let bit = _mm256_setr_epi64x(1, 2, 4, 8);
+            let chosen = _mm256_and_si256(_mm256_set1_epi64x(i64::from(lanes)), bit);
+            _mm256_and_pd(a, _mm256_castsi256_pd(_mm256_cmpeq_epi64(chosen, bit)))
+        }
     }
 
     #[inline(always)]

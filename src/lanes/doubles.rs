@@ -4,6 +4,7 @@
 use std::ops::{Add, Mul, Sub};
 
 use super::F64x4;
+use super::eight::{Instructions, Lanes8};
 use super::four::Points64;
 
 /// The operations of an instruction set on four doubles. None fuses a product and a sum, so every instruction set gives the same
@@ -43,6 +44,9 @@ pub trait DoubleInstructions: Copy {
         if_less: Self::Numbers64,
         otherwise: Self::Numbers64,
     ) -> Self::Numbers64;
+
+    /// The numbers in the lanes of a bit mask; 0 in all others.
+    fn kept64(self, a: Self::Numbers64, lanes: u32) -> Self::Numbers64;
 
     /// The rounding error of a product. It is exact, and so the same on every instruction set, except near overflow and underflow.
     fn product_error(self, x: F64x4, y: F64x4, product: F64x4) -> F64x4;
@@ -205,6 +209,12 @@ impl<I: DoubleInstructions> Doubles<I> {
         ))
     }
 
+    /// The numbers in the lanes of a bit mask; 0 in all others.
+    #[inline(always)]
+    pub fn kept(self, lanes: u32) -> Self {
+        self.of(self.lanes.kept64(self.numbers, lanes))
+    }
+
     /// The minimum over all lanes.
     #[inline(always)]
     pub fn least(self) -> f64 {
@@ -215,6 +225,14 @@ impl<I: DoubleInstructions> Doubles<I> {
     #[inline(always)]
     pub fn greatest(self) -> f64 {
         self.array().greatest()
+    }
+}
+
+impl<I: Instructions> Doubles<I> {
+    /// These numbers and four more, rounded to single precision.
+    #[inline(always)]
+    pub fn rounded(self, more: Self) -> Lanes8<I> {
+        self.lanes.rounded(self.numbers, more.numbers)
     }
 }
 

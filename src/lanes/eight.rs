@@ -22,6 +22,8 @@ pub trait Instructions: DoubleInstructions {
     fn load(self, values: &[f32; 8]) -> Self::Numbers;
     /// Loads four numbers; the other four lanes are 0.
     fn four(self, values: &[f32; 4]) -> Self::Numbers;
+    /// Four doubles and four more, each rounded to the nearest.
+    fn rounded(self, first: Self::Numbers64, more: Self::Numbers64) -> Self::Numbers;
     fn array(self, a: Self::Numbers) -> [f32; 8];
     fn add(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
     fn sub(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;

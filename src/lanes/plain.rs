@@ -51,6 +51,13 @@ impl Instructions for Plain {
     }
 
     #[inline(always)]
+    fn rounded(self, first: F64x4, more: F64x4) -> [f32; 8] {
+        let [a, b, c, d] = first.0.map(|x| x as f32);
+        let [e, f, g, h] = more.0.map(|x| x as f32);
+        [a, b, c, d, e, f, g, h]
+    }
+
+    #[inline(always)]
     fn array(self, a: [f32; 8]) -> [f32; 8] {
         a
     }
@@ -264,6 +271,17 @@ impl DoubleInstructions for Plain {
             }
         }
         chosen
+    }
+
+    #[inline(always)]
+    fn kept64(self, a: F64x4, lanes: u32) -> F64x4 {
+        let mut kept = a;
+        for (lane, value) in kept.0.iter_mut().enumerate() {
+            if lanes >> lane & 1 == 0 {
+                *value = 0.0;
+            }
+        }
+        kept
     }
 
     /// After Dekker (1971).

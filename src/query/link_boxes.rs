@@ -1,8 +1,8 @@
 //! The boxes of a robot's links, eight side by side: most pairs of links are far from each other.
 
+use crate::body_bounds::{Bounds, BoxFrame, FrameLimits};
 use crate::boxes::{BoxesByEight, PackedBox};
 use crate::cobject::LinkRows;
-use crate::environment::{Bounds, BoxFrame, FrameLimits};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pair::{bounds, gaps_of_balls};
 
@@ -87,7 +87,7 @@ impl<V> VisitNear<'_, V> {
     /// Packs the boxes of the links in a frame around the first.
     #[inline(always)]
     fn pack(&mut self, links: &[usize], first: &Bounds) -> BoxFrame {
-        let center = first.box_center();
+        let center = first.box_center;
         let mut limits = FrameLimits::default();
         for &link in links {
             limits.take_in(&center, &self.bounds[link]);

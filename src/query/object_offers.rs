@@ -5,8 +5,9 @@ use super::candidates::Candidates;
 use super::scene::{AttachedObject, Scene};
 use super::target::{Placement, Target};
 use crate::body::Body;
+use crate::body_bounds::Bounds;
 use crate::cobject::{Exceptions, InducedOptions, SObjects};
-use crate::environment::{Bounds, Named, NearScratch, SObject, Snapshot};
+use crate::environment::{Named, NearScratch, SObject, Snapshot};
 
 /// The r-side of a pair: a link's own body, or an s-object attached to the link.
 #[derive(Clone, Copy)]

@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use super::target::Placement;
 use super::world::World;
+use crate::body_bounds::Bounds;
 use crate::cobject::{Induced, SpaceState};
-use crate::environment::{Attachment, Bounds, SObject};
+use crate::environment::{Attachment, SObject};
 use crate::error::{Error, Result};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Pose;

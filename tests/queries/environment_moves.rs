@@ -5,9 +5,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use cstk::body::{Body, BodyBuilder};
-use cstk::environment::{
-    Addition, Attachment, Bounds, Change, Environment, Named, NearScratch, Snapshot,
-};
+use cstk::body_bounds::Bounds;
+use cstk::environment::{Addition, Attachment, Change, Environment, Named, NearScratch, Snapshot};
 use cstk::hierarchy::HierarchyOptions;
 use cstk::lanes::Plain;
 use cstk::pose::{Pose, Vec3};

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use cstk::body::Body;
-use cstk::environment::{Bounds, Change, Environment, Named, NearScratch};
+use cstk::body_bounds::Bounds;
+use cstk::environment::{Change, Environment, Named, NearScratch};
 use cstk::lanes::Plain;
 use cstk::pose::{Pose, Vec3};
 

@@ -13,8 +13,10 @@ use crate::pose::Vec3;
 pub struct BoxFrame {
     /// Boxes are placed relative to it.
     pub center: Vec3,
-    pub(super) scale: f64,
-    pub(super) inverse_scale: f64,
+    /// The unit.
+    pub scale: f64,
+    /// 1 over it.
+    pub inverse_scale: f64,
     /// By what bounds are lowered.
     slack: f64,
 }
@@ -66,7 +68,7 @@ impl BoxFrame {
 
     /// A box, by two of its axes, its centre relative to the frame's and its half sides.
     #[inline(always)]
-    pub(super) fn pack_box(&self, [x, y]: &[Vec3; 2], center: &Vec3, half: &Vec3) -> PackedBox {
+    pub fn pack_box(&self, [x, y]: &[Vec3; 2], center: &Vec3, half: &Vec3) -> PackedBox {
         let (x, y) = (each3(|k| x[k] as f32), each3(|k| y[k] as f32));
         let scale = self.inverse_scale;
         PackedBox {

@@ -2,7 +2,6 @@
 
 use crate::body::Body;
 use crate::boxes::Extent;
-use crate::environment::box_tree::OrientedBox;
 use crate::lanes::{Instructions, along64};
 use crate::pose::{Pose, Vec3, column, columns, vector};
 use crate::tolerance;
@@ -14,17 +13,19 @@ pub struct Bounds {
     radius: f64,
     /// How near the body comes to the centre: see `reach`.
     reach: f64,
-    pub(super) box_center: Vec3,
+    /// The centre of the box.
+    pub box_center: Vec3,
     /// The first two axes, orthonormal to within 2^-12 (see `PackedBox`); the third is their cross product.
-    pub(super) axes: [Vec3; 2],
-    pub(super) half: Vec3,
+    pub axes: [Vec3; 2],
+    /// Half the side along each axis.
+    pub half: Vec3,
     /// An upper bound of the distance of the box's corners from its centre.
-    pub(super) box_radius: f64,
+    pub box_radius: f64,
     /// How far the body may be from what it stands for: the largest deviation of its primitives from their features, and the one
     /// that was stated (see `Body::deviation`).
-    pub(super) deviation: f64,
+    pub deviation: f64,
     /// An upper bound of the coordinates in the computation, to which the rounding is proportional.
-    pub(super) largest_coordinate: f64,
+    pub largest_coordinate: f64,
 }
 
 impl Bounds {
@@ -65,28 +66,14 @@ impl Bounds {
         [apart - radii - slack, at_most + slack]
     }
 
-    /// The centre of the box.
-    pub fn box_center(&self) -> Vec3 {
-        self.box_center
-    }
-
     /// The axis-aligned box around the oriented one.
     #[inline(always)]
-    pub(super) fn extent(&self) -> Extent {
+    pub fn extent(&self) -> Extent {
         let [x, y] = &self.axes;
         let extent = x.abs() * self.half.x + y.abs() * self.half.y + x.cross(y).abs() * self.half.z;
         Extent {
             low: self.box_center - extent,
             high: self.box_center + extent,
-        }
-    }
-
-    #[inline(always)]
-    pub(super) fn oriented_box(&self) -> OrientedBox {
-        OrientedBox {
-            center: self.box_center,
-            axes: self.axes,
-            half: self.half,
         }
     }
 }
@@ -99,7 +86,7 @@ fn l1_norm(v: &Vec3) -> f64 {
 /// The slack by which a bound in the world is lowered so that pruning is safe: its rounding, and the error of the distances
 /// on both sides of a comparison (see `Pairing::slack`).
 #[inline(always)]
-pub(super) fn slack(largest_coordinate: f64, deviation: f64) -> f64 {
+pub fn slack(largest_coordinate: f64, deviation: f64) -> f64 {
     let rounding = tolerance::BOUND_ERROR + 2.0 * tolerance::DISTANCE_ERROR;
     4.0 * rounding * largest_coordinate + 2.0 * deviation
 }
