@@ -13,6 +13,28 @@ impl IndexSet {
         }
     }
 
+    /// Takes all out, for another capacity.
+    pub fn clear(&mut self, capacity: usize) {
+        self.words.clear();
+        self.words.resize(capacity.div_ceil(64), 0);
+    }
+
+    /// Takes in those of another set's numbers that are below a limit; all of them must be below this one's capacity.
+    pub fn extend_below(&mut self, other: &Self, limit: usize) {
+        for (place, (word, more)) in self.words.iter_mut().zip(&other.words).enumerate() {
+            let below = match limit.saturating_sub(64 * place) {
+                count @ 0..64 => (1 << count) - 1,
+                _ => u64::MAX,
+            };
+            *word |= more & below;
+        }
+    }
+
+    /// The bits of the numbers, 64 in a word.
+    pub fn words(&self) -> &[u64] {
+        &self.words
+    }
+
     /// Adds a number. Returns whether it is new.
     #[inline]
     pub fn insert(&mut self, index: usize) -> bool {
@@ -39,15 +61,19 @@ impl IndexSet {
     #[inline(always)]
     pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
         let words = self.words.iter().enumerate();
-        words.flat_map(|(place, &word)| {
-            let mut rest = word;
-            std::iter::from_fn(move || {
-                let bit = (rest != 0).then(|| rest.trailing_zeros() as usize)?;
-                rest &= rest - 1;
-                Some(64 * place + bit)
-            })
-        })
+        words.flat_map(|(place, &word)| bits(word).map(move |bit| 64 * place + bit))
     }
+}
+
+/// The places of the bits of a word, in order.
+#[inline(always)]
+pub fn bits(word: u64) -> impl Iterator<Item = usize> {
+    let mut rest = word;
+    std::iter::from_fn(move || {
+        let bit = (rest != 0).then(|| rest.trailing_zeros() as usize)?;
+        rest &= rest - 1;
+        Some(bit)
+    })
 }
 
 #[cfg(test)]
@@ -65,5 +91,18 @@ mod tests {
         set.remove(64);
         set.remove(1000);
         assert!(set.iter().eq([0, 3, 63, 128, 199]));
+        for (limit, count) in [
+            (0, 0),
+            (1, 1),
+            (63, 2),
+            (64, 3),
+            (128, 3),
+            (129, 4),
+            (500, 5),
+        ] {
+            let mut below = IndexSet::new(200);
+            below.extend_below(&set, limit);
+            assert!(below.iter().eq(set.iter().take(count)), "{limit}");
+        }
     }
 }

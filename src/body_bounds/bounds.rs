@@ -9,10 +9,10 @@ use crate::tolerance;
 /// The bounding ball and the oriented bounding box of a body at a pose, in the world.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bounds {
-    center: Vec3,
-    radius: f64,
+    pub(super) center: Vec3,
+    pub(super) radius: f64,
     /// How near the body comes to the centre: see `reach`.
-    reach: f64,
+    pub(super) reach: f64,
     /// The centre of the box.
     pub box_center: Vec3,
     /// The first two axes, orthonormal to within 2^-12 (see `PackedBox`); the third is their cross product.

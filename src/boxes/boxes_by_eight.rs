@@ -1,7 +1,7 @@
 //! Boxes eight side by side, in no tree.
 
 use super::{EightBoxes, PackedBox};
-use crate::lanes::Instructions;
+use crate::lanes::{Instructions, Triple, each3};
 
 /// Boxes eight side by side, put in one after the other.
 #[derive(Clone, Debug, Default)]
@@ -44,6 +44,32 @@ impl BoxesByEight {
         self.count += 1;
     }
 
+    /// Puts eight boxes in places from `8 * number` on.
+    #[inline(always)]
+    pub fn put<I: Instructions>(&mut self, lanes: I, number: usize, boxes: &EightBoxes<I>) {
+        if self.eights.len() <= number {
+            self.eights.resize(number + 1, Eight::default());
+        }
+        self.count = self.count.max(8 * (number + 1));
+        let eight = &mut self.eights[number];
+        let [x, y, z] = &boxes.axes;
+        eight.axes = [arrays(lanes, x), arrays(lanes, y), arrays(lanes, z)];
+        eight.center = arrays(lanes, &boxes.center);
+        eight.half = arrays(lanes, &boxes.half);
+    }
+
+    /// The box of a place.
+    #[inline(always)]
+    pub fn get(&self, place: usize) -> PackedBox {
+        let (eight, lane) = (&self.eights[place / 8], place % 8);
+        let of_lane = |numbers: &[[f32; 8]; 3]| each3(|k| numbers[k][lane]);
+        PackedBox {
+            axes: each3(|i| of_lane(&eight.axes[i])),
+            center: of_lane(&eight.center),
+            half: of_lane(&eight.half),
+        }
+    }
+
     /// The number of boxes.
     pub fn len(&self) -> usize {
         self.count
@@ -77,4 +103,9 @@ impl BoxesByEight {
             half: triple(&eight.half),
         }
     }
+}
+
+#[inline(always)]
+fn arrays<I: Instructions>(lanes: I, [x, y, z]: &Triple<I>) -> [[f32; 8]; 3] {
+    [lanes.array(*x), lanes.array(*y), lanes.array(*z)]
 }

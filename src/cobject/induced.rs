@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::{ClearPairs, Exceptions, Leaf, LeftOut, LinkRows};
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind, Result, require_finite};
+use crate::index_set::IndexSet;
 use crate::space::Space;
 use crate::user_data::UserData;
 
@@ -35,6 +36,8 @@ pub enum BodyPairs {
     Objects {
         /// The links on the r-side, by number in the space; none twice.
         links: Vec<usize>,
+        /// The bodies of these, by their numbers.
+        bodies: IndexSet,
         /// The s-side.
         objects: SObjects,
         /// Pairs that are left out.
@@ -90,7 +93,7 @@ impl BodyPairs {
         mut objects: SObjects,
         left_out: LeftOut,
     ) -> Result<Self> {
-        let links = if links.is_empty() {
+        let links: Vec<usize> = if links.is_empty() {
             let all = 0..space.link_count();
             let has_body = |link: usize| space.link(link).is_some_and(|l| l.body.is_some());
             if !all.clone().any(has_body) {
@@ -113,8 +116,13 @@ impl BodyPairs {
             ids.sort_unstable();
             ids.dedup();
         }
+        let mut bodies = IndexSet::new(space.carriers().len());
+        for number in links.iter().filter_map(|&link| space.body_number(link)) {
+            bodies.insert(number);
+        }
         Ok(Self::Objects {
             links,
+            bodies,
             objects,
             exceptions,
         })
@@ -137,8 +145,10 @@ impl BodyPairs {
         let mut seen = HashSet::new();
         let is_new = |&&[r, s]: &&[usize; 2]| seen.insert([r.min(s), r.max(s)]);
         let pairs: Vec<[usize; 2]> = pairs.iter().filter(is_new).copied().collect();
+        let numbers = |&[r, s]: &[usize; 2]| Some([space.body_number(r)?, space.body_number(s)?]);
+        let numbered = pairs.iter().filter_map(numbers);
         Ok(Self::Links {
-            rows: LinkRows::new(&pairs),
+            rows: LinkRows::new(space.carriers().len(), numbered),
             clear: None,
             pairs,
         })

@@ -17,4 +17,4 @@ pub use near_pairs::NearPairScratch;
 pub use object_tree::ObjectTree;
 pub use places::SObject;
 pub use snapshot::Snapshot;
-pub use visit_near::{Named, NearScratch};
+pub use visit_near::NearScratch;

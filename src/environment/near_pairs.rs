@@ -2,10 +2,11 @@
 
 use super::object_tree::ObjectTree;
 use super::snapshot::Snapshot;
-use super::visit_near::{Named, NearScratch};
-use crate::body_bounds::{BoxFrame, FrameLimits};
+use super::visit_near::NearScratch;
+use crate::body_bounds::{BoundsByEight, BoxFrame, FrameLimits};
 use crate::boxes::{EightBoxes, Extent, PackedBox};
 use crate::environment::box_tree::{BOX, BoxTree};
+use crate::index_set::IndexSet;
 use crate::lanes::{Instructions, Work, each3, with_widest};
 use crate::pair::bounds;
 use crate::pose::Vec3;
@@ -15,6 +16,14 @@ use crate::pose::Vec3;
 pub struct NearPairScratch {
     near: NearScratch,
     open: Vec<NodePair>,
+    strays: Strays,
+}
+
+/// The objects of a state that are not in its tree, as bodies that look for others; their numbers are the places in the list of them.
+#[derive(Debug, Default)]
+struct Strays {
+    bounds: BoundsByEight,
+    all: IndexSet,
 }
 
 /// A node of each tree, or a box; of a tree with itself, a node twice stands for the pairs within it.
@@ -37,21 +46,22 @@ impl Snapshot {
         mut visit: impl FnMut([usize; 2], f64) -> f64,
     ) {
         let mut limit = limit;
-        let near = &mut scratch.near;
+        let NearPairScratch { near, open, strays } = scratch;
         let trees = [self.tree(), other.unwrap_or(self).tree()];
         let is_stray =
             |tree: &ObjectTree, place: usize| tree.strays.binary_search(&(place as u32)).is_ok();
         // The strays of this state against all objects of the other, or of its own.
-        let mut strays = near.take_bodies();
-        self.append_strays(&mut strays);
-        trees[1].visit_near(&strays, limit, near, |named, place, lower| {
+        strays.list(self);
+        let Strays { bounds, all } = &*strays;
+        trees[1].visit_near(bounds, all, limit, near, |number, place, lower| {
             let is_within = other.is_none();
-            if !(is_within && place <= named.number && is_stray(trees[1], place)) {
-                let [low, high] = [named.number.min(place), named.number.max(place)];
+            let stray = trees[0].strays[number] as usize;
+            if !(is_within && place <= stray && is_stray(trees[1], place)) {
+                let [low, high] = [stray.min(place), stray.max(place)];
                 let places = if is_within {
                     [low, high]
                 } else {
-                    [named.number, place]
+                    [stray, place]
                 };
                 limit = visit(places, lower);
             }
@@ -59,23 +69,22 @@ impl Snapshot {
         });
         if let Some(other) = other {
             // The strays of the other against what is in this state's tree.
-            strays.clear();
-            other.append_strays(&mut strays);
-            trees[0].visit_near(&strays, limit, near, |named, place, lower| {
+            strays.list(other);
+            let Strays { bounds, all } = &*strays;
+            trees[0].visit_near(bounds, all, limit, near, |number, place, lower| {
                 if !is_stray(trees[0], place) {
-                    limit = visit([place, named.number], lower);
+                    limit = visit([place, trees[1].strays[number] as usize], lower);
                 }
                 limit
             });
         }
-        near.keep_bodies(strays);
         let is_self = other.is_none();
         let Some(descent) = PairDescent::new(trees, is_self, limit) else {
             return;
         };
         with_widest(PairVisit {
             descent,
-            open: &mut scratch.open,
+            open,
             visit: |[a, b]: [usize; 2], lower| {
                 visit(
                     if is_self {
@@ -88,17 +97,17 @@ impl Snapshot {
             },
         });
     }
+}
 
-    fn append_strays<'s>(&'s self, strays: &mut Vec<Named<'s>>) {
-        strays.extend(self.tree().strays.iter().map(|&place| {
-            let object = self.object(place as usize);
-            Named {
-                number: place as usize,
-                body: &object.body,
-                pose: &object.pose,
-                bounds: self.bounds(place as usize),
-            }
-        }));
+impl Strays {
+    fn list(&mut self, state: &Snapshot) {
+        let strays = &state.tree().strays;
+        self.bounds.clear();
+        self.all.clear(strays.len());
+        for (number, &place) in strays.iter().enumerate() {
+            self.bounds.push(state.bounds(place as usize));
+            self.all.insert(number);
+        }
     }
 }
 

@@ -1,30 +1,31 @@
 //! The traversal to the objects near a body.
 
 use super::object_tree::ObjectTree;
-use crate::body::Body;
-use crate::body_bounds::{Bounds, BoxFrame, FrameLimits};
-use crate::boxes::{EightBoxes, PackedBox, WideNode};
+use crate::body_bounds::{BoundsByEight, BoxFrame, ChosenBodies, FrameLimits};
+use crate::boxes::{BoxesByEight, EightBoxes, PackedBox, WideNode};
 use crate::environment::box_tree::BOX;
+use crate::index_set::{IndexSet, bits};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pair::bounds;
-use crate::pose::{Pose, Vec3};
-use crate::reused::emptied;
+use crate::pose::Vec3;
 
 impl ObjectTree {
-    /// Visits, for each of some bodies, the objects that may be within `limit` of it, near subtrees first. `visit` gets the
-    /// body, the object's place and a safe lower bound of the distance; it returns the limit from then on.
-    pub fn visit_near<'b>(
+    /// Visits, for each of some bodies, by their numbers, the objects that may be within `limit` of it, near subtrees first. `visit`
+    /// gets the body's number, the object's place and a safe lower bound of the distance; it returns the limit from then on.
+    pub fn visit_near(
         &self,
-        bodies: &[Named<'b>],
+        bounds: &BoundsByEight,
+        bodies: &IndexSet,
         limit: f64,
         scratch: &mut NearScratch,
-        visit: impl FnMut(&Named<'b>, usize, f64) -> f64,
+        visit: impl FnMut(usize, usize, f64) -> f64,
     ) {
         if self.is_empty() {
             return;
         }
         with_widest(Visit {
             objects: self,
+            bounds,
             bodies,
             limit,
             open: &mut scratch.open,
@@ -38,21 +39,8 @@ impl ObjectTree {
 #[derive(Debug, Default)]
 pub struct NearScratch {
     open: Vec<QueueEntry>,
-    boxes: Vec<PackedBox>,
-    /// For the bodies of the next traversal.
-    bodies: Vec<Named<'static>>,
-}
-
-impl NearScratch {
-    /// An empty list for the bodies of a traversal.
-    pub fn take_bodies<'b>(&mut self) -> Vec<Named<'b>> {
-        emptied(std::mem::take(&mut self.bodies))
-    }
-
-    /// Takes the list's memory back.
-    pub fn keep_bodies(&mut self, bodies: Vec<Named>) {
-        self.bodies = emptied(bodies);
-    }
+    /// The bodies' boxes.
+    boxes: BoxesByEight,
 }
 
 /// A node or an object to be visited.
@@ -65,62 +53,42 @@ struct QueueEntry {
     bodies: u64,
 }
 
-/// A body by a number, at its pose, with its bounds there.
-#[derive(Clone, Copy, Debug)]
-pub struct Named<'b> {
-    /// What the caller calls the body.
-    pub number: usize,
-    /// The body.
-    pub body: &'b Body,
-    /// Where it is.
-    pub pose: &'b Pose,
-    /// Its bounds there.
-    pub bounds: &'b Bounds,
-}
-
-/// Number of bodies that traverse the tree together, one per bit of a mask.
-const BATCH: usize = u64::BITS as usize;
-
-struct Visit<'a, 'b, V> {
+struct Visit<'a, V> {
     objects: &'a ObjectTree,
-    bodies: &'a [Named<'b>],
+    bounds: &'a BoundsByEight,
+    bodies: &'a IndexSet,
     limit: f64,
     open: &'a mut Vec<QueueEntry>,
-    boxes: &'a mut Vec<PackedBox>,
+    boxes: &'a mut BoxesByEight,
     visit: V,
 }
 
-impl<'b, V> Work for Visit<'_, 'b, V>
-where
-    V: FnMut(&Named<'b>, usize, f64) -> f64,
-{
+impl<V: FnMut(usize, usize, f64) -> f64> Work for Visit<'_, V> {
     type Output = ();
 
     #[inline(always)]
     fn run<I: Instructions>(mut self, lanes: I) {
-        for batch in self.bodies.chunks(BATCH) {
-            self.descend(lanes, batch);
+        for (word, &all) in self.bodies.words().iter().enumerate() {
+            if all != 0 {
+                self.descend(lanes, word, all);
+            }
         }
     }
 }
 
-impl<'b, V> Visit<'_, 'b, V>
-where
-    V: FnMut(&Named<'b>, usize, f64) -> f64,
-{
-    /// Visits the objects near a batch of bodies.
+impl<V: FnMut(usize, usize, f64) -> f64> Visit<'_, V> {
+    /// Visits the objects near the bodies of a word's bits.
     #[inline(always)]
-    fn descend<I: Instructions>(&mut self, lanes: I, bodies: &[Named<'b>]) {
-        let descent = Descent::new(self.objects, bodies, std::mem::take(self.boxes));
+    fn descend<I: Instructions>(&mut self, lanes: I, word: usize, all: u64) {
+        let descent = Descent::new(lanes, self, word, all);
         let objects = self.objects;
-        let all = u64::MAX >> (BATCH - bodies.len());
         self.open_root_and_strays(all);
         while let Some(next) = self.open.pop() {
             if next.name & BOX != 0 {
                 let place = (next.name & !BOX) as usize;
-                for named in bodies {
+                for body in bits(all) {
                     let lower = f64::NEG_INFINITY;
-                    self.limit = (self.visit)(named, place, lower);
+                    self.limit = (self.visit)(descent.first + body, place, lower);
                 }
                 continue;
             }
@@ -147,10 +115,9 @@ where
                     NearAll::Several => {}
                 }
             }
-            let near = self.test_bodies(lanes, wide, &eight, &descent, bodies, next.bodies);
+            let near = self.test_bodies(lanes, wide, &eight, &descent, next.bodies);
             self.open_children(wide, &near);
         }
-        *self.boxes = descent.bodies;
     }
 
     /// Puts the root and the strays on the stack, for all bodies.
@@ -178,7 +145,6 @@ where
         wide: &WideNode,
         eight: &EightBoxes<I>,
         descent: &Descent,
-        bodies: &[Named<'b>],
         mask: u64,
     ) -> NearNodes {
         let mut cutoff = descent.frame.cutoff(self.limit);
@@ -193,7 +159,7 @@ where
             let at = rest.trailing_zeros() as usize;
             let bit = rest & rest.wrapping_neg();
             rest ^= bit;
-            let bounds = bounds(lanes, eight, &descent.bodies[at]);
+            let bounds = bounds(lanes, eight, &self.boxes.get(at));
             let mut near = lanes.at_most(bounds, cutoff) & children;
             let bounds = lanes.array(bounds);
             while near != 0 {
@@ -207,7 +173,7 @@ where
                 } else if bounds[lane] <= cutoff {
                     let place = (child & !BOX) as usize;
                     let lower = descent.frame.lower(bounds[lane]);
-                    self.limit = (self.visit)(&bodies[at], place, lower);
+                    self.limit = (self.visit)(descent.first + at, place, lower);
                     cutoff = descent.frame.cutoff(self.limit);
                 }
             }
@@ -282,35 +248,36 @@ fn near_all<I: Instructions>(
 
 /// The bodies of one traversal.
 struct Descent {
+    /// The number of the body of the lowest bit.
+    first: usize,
     frame: BoxFrame,
-    /// The bodies' boxes.
-    bodies: Vec<PackedBox>,
-    /// A box around all of them, where there are several and the tree has several nodes.
+    /// A box around all bodies, where there are several and the tree has several nodes.
     around: Option<PackedBox>,
     /// The unit of the tree in units of the frame.
     unit: f32,
 }
 
 impl Descent {
+    /// Packs the boxes of the bodies of a word's bits.
     #[inline(always)]
-    fn new(objects: &ObjectTree, bodies: &[Named], mut boxes: Vec<PackedBox>) -> Self {
+    fn new<I: Instructions, V>(lanes: I, visit: &mut Visit<V>, word: usize, all: u64) -> Self {
+        let (objects, first) = (visit.objects, 64 * word);
         let tree = objects.tree.frame();
-        let mut limits = FrameLimits {
-            size: objects.radius,
-            largest_coordinate: objects.largest_coordinate,
-            deviation: 0.0,
+        let chosen = ChosenBodies {
+            first: word,
+            words: &[all],
         };
-        for named in bodies {
-            limits.take_in(&tree.center, named.bounds);
-        }
+        let limits = visit.bounds.limits(lanes, chosen, &tree.center);
+        let limits = FrameLimits {
+            size: limits.size.max(objects.radius),
+            largest_coordinate: limits.largest_coordinate.max(objects.largest_coordinate),
+            ..limits
+        };
         let deviation = objects.deviation + limits.deviation;
         let frame = BoxFrame::new(tree.center, &limits, deviation);
-        boxes.clear();
-        for named in bodies {
-            boxes.push(frame.pack(named.bounds));
-        }
-        let around = (bodies.len() > 1 && objects.has_several_nodes()).then(|| {
-            let extents = bodies.iter().map(|named| named.bounds.extent());
+        visit.bounds.pack(lanes, chosen, &frame, visit.boxes);
+        let around = (!all.is_power_of_two() && objects.has_several_nodes()).then(|| {
+            let extents = bits(all).map(|body| visit.bounds.get(first + body).extent());
             let whole = extents.reduce(|all, one| all.union(&one));
             let whole = whole.expect("there are bodies");
             frame.pack_box(
@@ -320,7 +287,7 @@ impl Descent {
             )
         });
         Self {
-            bodies: boxes,
+            first,
             around,
             unit: (tree.scale * frame.inverse_scale) as f32,
             frame,

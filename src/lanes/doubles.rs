@@ -4,7 +4,6 @@
 use std::ops::{Add, Mul, Sub};
 
 use super::F64x4;
-use super::eight::{Instructions, Lanes8};
 use super::four::Points64;
 
 /// The operations of an instruction set on four doubles. None fuses a product and a sum, so every instruction set gives the same
@@ -55,8 +54,8 @@ pub trait DoubleInstructions: Copy {
 /// Four doubles.
 #[derive(Clone, Copy)]
 pub struct Doubles<I: DoubleInstructions> {
-    numbers: I::Numbers64,
-    lanes: I,
+    pub(super) numbers: I::Numbers64,
+    pub(super) lanes: I,
 }
 
 /// Four points or vectors, as one register per coordinate.
@@ -225,14 +224,6 @@ impl<I: DoubleInstructions> Doubles<I> {
     #[inline(always)]
     pub fn greatest(self) -> f64 {
         self.array().greatest()
-    }
-}
-
-impl<I: Instructions> Doubles<I> {
-    /// These numbers and four more, rounded to single precision.
-    #[inline(always)]
-    pub fn rounded(self, more: Self) -> Lanes8<I> {
-        self.lanes.rounded(self.numbers, more.numbers)
     }
 }
 

@@ -2,7 +2,7 @@
 //! give different bits: a bound decides what is looked at, and is lowered by more than its rounding, as `pair::ROUNDING` derives.
 //! Proofs of whole motions rest on that, so another operation needs another derivation.
 
-use super::doubles::DoubleInstructions;
+use super::doubles::{DoubleInstructions, Doubles};
 
 /// Eight lanes of an instruction set.
 pub type Lanes8<I> = <I as Instructions>::Numbers;
@@ -92,6 +92,14 @@ pub trait Instructions: DoubleInstructions {
             self.sub(self.mul(a[2], b[0]), self.mul(a[0], b[2])),
             self.sub(self.mul(a[0], b[1]), self.mul(a[1], b[0])),
         ]
+    }
+}
+
+impl<I: Instructions> Doubles<I> {
+    /// These numbers and four more, rounded to single precision.
+    #[inline(always)]
+    pub fn rounded(self, more: Self) -> Lanes8<I> {
+        self.lanes.rounded(self.numbers, more.numbers)
     }
 }
 

@@ -10,7 +10,7 @@ use super::each3;
 /// and `f64::ceil` are function calls on an x86-64 without SSE4.1.
 const TO_WHOLE: f64 = 6_755_399_441_055_744.0;
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C, align(32))]
 pub struct F64x4(pub [f64; 4]);
 

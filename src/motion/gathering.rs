@@ -208,7 +208,6 @@ impl<'a, 'k> Gathering<'a, 'k> {
         scene: &'a Scene,
     ) -> Result<()> {
         let clear = clear.filter(|_| threshold <= term.options.contact_epsilon);
-        let bounds = scene.bounds();
         let mut near: Vec<([usize; 2], f64)> = Vec::new();
         for &[r, s] in pairs {
             let limit = threshold + term.options.margin;
@@ -219,7 +218,11 @@ impl<'a, 'k> Gathering<'a, 'k> {
             if known.is_some_and(|cells| self.way.stays_in(cells)) {
                 continue;
             }
-            let [lower, _] = bounds[r].distance(&bounds[s]);
+            let bounds = [r, s].map(|link| scene.bounds_of_link(link));
+            let [Some(a), Some(b)] = bounds else {
+                continue;
+            };
+            let [lower, _] = a.distance(&b);
             let bound = lower - term.options.margin;
             // The distance of two bodies changes by no more than both move in the world.
             let shift = self.shift_of_link(scene, r) + self.shift_of_link(scene, s);

@@ -128,6 +128,7 @@ impl<'a> Scene<'a> {
                 }
                 BodyPairs::Objects {
                     links,
+                    bodies,
                     objects,
                     exceptions,
                 } => {
@@ -136,13 +137,15 @@ impl<'a> Scene<'a> {
                     };
                     let term = ObjectsTerm {
                         links,
+                        bodies,
                         objects,
                         exceptions,
                         options: &term.options,
                         number,
                         snapshot,
                     };
-                    self.offer_objects(&term, &mut candidates, &mut scratch.near);
+                    let CandidateScratch { bodies, near, .. } = scratch;
+                    self.offer_objects(&term, &mut candidates, bodies, near);
                 }
             }
         }
@@ -161,7 +164,6 @@ impl<'a> Scene<'a> {
             term: term.number,
             ..self.link_pair(links, sides)
         };
-        let bounds = self.bounds();
         let cutoff = candidates.cutoff(options);
         let clear = term.clear.zip(self.coordinates());
         let clear = clear.filter(|_| candidates.wants_contacts_alone(options));
@@ -170,7 +172,9 @@ impl<'a> Scene<'a> {
         };
         candidates.count(term.pairs.len());
         let last_link = candidates.last_link();
-        boxes.visit_near(term.rows, bounds, cutoff, |[r, s], bounds| {
+        let links = self.space().carriers();
+        boxes.visit_near(term.rows, self.bounds(), cutoff, |pair, bounds| {
+            let [r, s] = pair.map(|body| links[body]);
             if r <= last_link
                 && let (Some(a), Some(b)) = (self.link(r), self.link(s))
                 && !is_clear([r, s])
@@ -271,6 +275,7 @@ impl<'a> Scene<'a> {
             (
                 BodyPairs::Objects {
                     links,
+                    bodies,
                     objects,
                     exceptions,
                 },
@@ -283,6 +288,7 @@ impl<'a> Scene<'a> {
                 let object = snapshot.find(id)?;
                 let term = ObjectsTerm {
                     links,
+                    bodies,
                     objects,
                     exceptions,
                     options: &term.options,

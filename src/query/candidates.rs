@@ -8,6 +8,7 @@ use crate::body_bounds::Bounds;
 use crate::cobject::InducedOptions;
 use crate::environment::NearScratch;
 use crate::error::Result;
+use crate::index_set::IndexSet;
 use crate::reused::emptied;
 use crate::work_meter::WorkMeter;
 
@@ -55,6 +56,8 @@ impl CandidateFilter {
 /// Memory of the broad phase, reused by the next query.
 #[derive(Default)]
 pub(crate) struct CandidateScratch {
+    /// The bodies that look for objects near them.
+    pub bodies: IndexSet,
     pub near: NearScratch,
     pub link_boxes: LinkBoxes,
     targets: Vec<Target<'static>>,

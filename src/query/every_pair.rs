@@ -5,7 +5,6 @@ use super::object_offers::{ObjectsTerm, RSide};
 use super::scene::Scene;
 use super::target::Target;
 use crate::cobject::{BodyPairs, Induced};
-use crate::environment::Named;
 use crate::error::Result;
 
 impl Scene<'_> {
@@ -17,7 +16,7 @@ impl Scene<'_> {
     ) -> Result<()> {
         self.check_term(term)?;
         let options = term.options;
-        let (links, objects, exceptions) = match &term.pairs {
+        let (links, bodies, objects, exceptions) = match &term.pairs {
             BodyPairs::Links { pairs, .. } => {
                 for &[link, s] in pairs {
                     let r = RSide { link, attached: 0 };
@@ -32,9 +31,10 @@ impl Scene<'_> {
             }
             BodyPairs::Objects {
                 links,
+                bodies,
                 objects,
                 exceptions,
-            } => (links, objects, exceptions),
+            } => (links, bodies, objects, exceptions),
         };
         let environment = objects.environment();
         let Some(snapshot) = self.world().snapshot(environment) else {
@@ -42,19 +42,17 @@ impl Scene<'_> {
         };
         let term = ObjectsTerm {
             links,
+            bodies,
             objects,
             exceptions,
             options: &options,
             number: 0,
             snapshot,
         };
-        let mut sides = Vec::new();
-        self.append_r_sides(links, usize::MAX, environment.serial(), &mut sides);
-        for Named {
-            number, body, pose, ..
-        } in sides
-        {
-            let r = self.r_side(number);
+        let space = self.space();
+        let own = links.iter().filter_map(|&link| space.body_number(link));
+        for body in own.chain(self.held_bodies_of(links, environment.serial())) {
+            let (r, (placement, _)) = (self.r_side(body), self.r_body(body));
             let chosen = snapshot.objects().filter(|o| objects.contains(o.id));
             for object in chosen.filter(|object| term.admits(r, object)) {
                 let mut held = self.held_of(environment.serial()).map(|(_, held)| held);
@@ -63,7 +61,7 @@ impl Scene<'_> {
                 visit(Target {
                     options,
                     s_carrier: held.map(|held| held.attachment.link),
-                    ..self.target(r, SSide::Object(object.id), [(body, pose), at])
+                    ..self.target(r, SSide::Object(object.id), [placement, at])
                 })?;
             }
         }

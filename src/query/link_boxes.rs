@@ -1,30 +1,27 @@
 //! The boxes of a robot's links, eight side by side: most pairs of links are far from each other.
 
-use crate::body_bounds::{Bounds, BoxFrame, FrameLimits};
-use crate::boxes::{BoxesByEight, PackedBox};
+use crate::body_bounds::{BoundsByEight, BoxFrame, ChosenBodies};
+use crate::boxes::BoxesByEight;
 use crate::cobject::LinkRows;
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pair::{bounds, gaps_of_balls};
 
-/// The links' boxes, in memory that is reused by the next query.
+/// The boxes of links' bodies, in memory that is reused by the next query.
 #[derive(Default)]
-pub(crate) struct LinkBoxes {
-    one: Vec<PackedBox>,
-    eights: BoxesByEight,
-}
+pub(crate) struct LinkBoxes(BoxesByEight);
 
 impl LinkBoxes {
-    /// Visits the pairs whose boxes may be within `limit` of each other, with a safe lower and a safe upper bound of the distance.
-    /// `visit` returns the limit from then on. `bounds` are those of all links of the space.
+    /// Visits the pairs of bodies whose boxes may be within `limit` of each other, by their numbers, with a safe lower and a safe upper
+    /// bound of the distance. `visit` returns the limit from then on. `bounds` are those of all bodies of the space.
     pub fn visit_near(
         &mut self,
         rows: &LinkRows,
-        bounds: &[Bounds],
+        bounds: &BoundsByEight,
         limit: f64,
         visit: impl FnMut([usize; 2], [f64; 2]) -> f64,
     ) {
         with_widest(VisitNear {
-            boxes: self,
+            boxes: &mut self.0,
             rows,
             bounds,
             limit,
@@ -34,9 +31,9 @@ impl LinkBoxes {
 }
 
 struct VisitNear<'a, V> {
-    boxes: &'a mut LinkBoxes,
+    boxes: &'a mut BoxesByEight,
     rows: &'a LinkRows,
-    bounds: &'a [Bounds],
+    bounds: &'a BoundsByEight,
     limit: f64,
     visit: V,
 }
@@ -46,15 +43,22 @@ impl<V: FnMut([usize; 2], [f64; 2]) -> f64> Work for VisitNear<'_, V> {
 
     #[inline(always)]
     fn run<I: Instructions>(mut self, lanes: I) {
-        let LinkRows { links, rows } = self.rows;
-        let Some(&first) = links.first() else {
+        let LinkRows { bodies, rows } = self.rows;
+        let Some(first) = bodies.iter().next() else {
             return;
         };
-        let frame = self.pack(links, &self.bounds[first]);
+        let chosen = ChosenBodies {
+            first: 0,
+            words: bodies.words(),
+        };
+        let center = self.bounds.get(first).box_center;
+        let limits = self.bounds.limits(lanes, chosen, &center);
+        let frame = BoxFrame::new(center, &limits, 2.0 * limits.deviation);
+        self.bounds.pack(lanes, chosen, &frame, self.boxes);
         let mut cutoff = frame.cutoff(self.limit);
-        let LinkBoxes { one, eights } = self.boxes;
         for row in rows {
-            let (eight, one) = (eights.load(lanes, row.eight), &one[row.first as usize]);
+            let first = row.first as usize;
+            let (eight, one) = (self.boxes.load(lanes, row.eight), &self.boxes.get(first));
             let seconds = u32::from(row.seconds);
             // Many are far even by the balls around the boxes, which takes far less.
             if lanes.at_most(gaps_of_balls(lanes, &eight, one), cutoff) & seconds == 0 {
@@ -66,41 +70,19 @@ impl<V: FnMut([usize; 2], [f64; 2]) -> f64> Work for VisitNear<'_, V> {
                 continue;
             }
             let found = lanes.array(found);
-            let r = links[row.first as usize];
+            let bounds_of_first = self.bounds.get(first);
             while near != 0 {
                 let lane = near.trailing_zeros() & 7;
                 near &= near - 1;
-                let s = links[(8 * row.eight + lane) as usize];
+                let second = (8 * row.eight + lane) as usize;
                 // Where a link is far from the others, its box is placed less exactly than its ball.
-                let [lower, upper] = self.bounds[r].distance(&self.bounds[s]);
+                let [lower, upper] = bounds_of_first.distance(&self.bounds.get(second));
                 let lower = lower.max(frame.lower(found[lane as usize]));
                 if lower <= self.limit {
-                    self.limit = (self.visit)([r, s], [lower, upper]);
+                    self.limit = (self.visit)([first, second], [lower, upper]);
                 }
             }
             cutoff = frame.cutoff(self.limit);
         }
-    }
-}
-
-impl<V> VisitNear<'_, V> {
-    /// Packs the boxes of the links in a frame around the first.
-    #[inline(always)]
-    fn pack(&mut self, links: &[usize], first: &Bounds) -> BoxFrame {
-        let center = first.box_center;
-        let mut limits = FrameLimits::default();
-        for &link in links {
-            limits.take_in(&center, &self.bounds[link]);
-        }
-        let frame = BoxFrame::new(center, &limits, 2.0 * limits.deviation);
-        let LinkBoxes { one, eights } = &mut *self.boxes;
-        one.clear();
-        eights.clear();
-        for &link in links {
-            let packed = frame.pack(&self.bounds[link]);
-            eights.push(&packed);
-            one.push(packed);
-        }
-        frame
     }
 }

@@ -4,10 +4,10 @@ use super::answer::SSide;
 use super::candidates::Candidates;
 use super::scene::{AttachedObject, Scene};
 use super::target::{Placement, Target};
-use crate::body::Body;
 use crate::body_bounds::Bounds;
 use crate::cobject::{Exceptions, InducedOptions, SObjects};
-use crate::environment::{Named, NearScratch, SObject, Snapshot};
+use crate::environment::{NearScratch, SObject, Snapshot};
+use crate::index_set::IndexSet;
 
 /// The r-side of a pair: a link's own body, or an s-object attached to the link.
 #[derive(Clone, Copy)]
@@ -20,6 +20,7 @@ pub(super) struct RSide {
 /// An induced set of links against s-objects, with its number in the group and the snapshot that it sees.
 pub(super) struct ObjectsTerm<'t, 's> {
     pub links: &'t [usize],
+    pub bodies: &'t IndexSet,
     pub objects: &'t SObjects,
     pub exceptions: &'t Exceptions,
     pub options: &'t InducedOptions,
@@ -76,39 +77,38 @@ struct ObjectOffers<'o, 's, 'a, 'm> {
 
 impl<'s> ObjectOffers<'_, 's, '_, '_> {
     /// Offers the objects in the world that the tree finds near the bodies.
-    fn offer_near(&mut self, bodies: &[Named<'s>], scratch: &mut NearScratch) {
+    fn offer_near(&mut self, bodies: &IndexSet, scratch: &mut NearScratch) {
         let snapshot = self.term.snapshot;
         let cutoff = self.candidates.cutoff(self.term.options);
-        snapshot
-            .tree()
-            .visit_near(bodies, cutoff, scratch, |named, place, bound| {
-                let other = snapshot.bounds(place);
-                let at = SObjectAt::in_world(snapshot, place);
-                self.offer(named, at, other, bound)
-            });
+        let (tree, bounds) = (snapshot.tree(), self.scene.bounds());
+        tree.visit_near(bounds, bodies, cutoff, scratch, |body, place, bound| {
+            let other = snapshot.bounds(place);
+            let at = SObjectAt::in_world(snapshot, place);
+            self.offer(body, at, other, bound)
+        });
     }
 
     /// Offers those of the objects with these ids that are in the world.
-    fn offer_chosen(&mut self, bodies: &[Named<'s>], ids: &[u64]) {
+    fn offer_chosen(&mut self, bodies: &IndexSet, ids: &[u64]) {
         let snapshot = self.term.snapshot;
-        for named in bodies {
+        for body in bodies.iter() {
             let places = ids.iter().filter_map(|id| snapshot.place_of(*id));
             for place in places.filter(|&place| snapshot.object(place).attachment.is_none()) {
                 let (at, other) = (SObjectAt::in_world(snapshot, place), snapshot.bounds(place));
-                self.offer(named, at, other, f64::NEG_INFINITY);
+                self.offer(body, at, other, f64::NEG_INFINITY);
             }
         }
     }
 
     /// Offers the set's objects that are attached to links.
-    fn offer_attached(&mut self, bodies: &[Named<'s>], environment: u64) {
+    fn offer_attached(&mut self, bodies: &IndexSet, environment: u64) {
         let objects = self.term.objects;
         let held = self.scene.held_of(environment);
-        let first_held = self.scene.space().link_count();
+        let first_held = self.scene.space().carriers().len();
         for (i, held) in held.filter(|(_, held)| objects.contains(held.object.id)) {
-            let other = &self.scene.bounds()[first_held + i];
-            for named in bodies {
-                self.offer(named, held.as_s_side(), other, f64::NEG_INFINITY);
+            let other = &self.scene.bounds().get(first_held + i);
+            for body in bodies.iter() {
+                self.offer(body, held.as_s_side(), other, f64::NEG_INFINITY);
             }
         }
     }
@@ -116,27 +116,25 @@ impl<'s> ObjectOffers<'_, 's, '_, '_> {
     /// Offers a body and an object with its bounds and a lower bound of their distance. Returns the cutoff for further
     /// pairs.
     #[inline(always)]
-    fn offer(&mut self, named: &Named<'s>, at: SObjectAt<'s>, other: &Bounds, bound: f64) -> f64 {
+    fn offer(&mut self, body: usize, at: SObjectAt<'s>, other: &Bounds, bound: f64) -> f64 {
         let (scene, term) = (self.scene, self.term);
-        let &Named {
-            number,
-            body,
-            pose,
-            bounds,
-        } = named;
-        let r = scene.r_side(number);
+        let r = scene.r_side(body);
         if !term.admits(r, at.object) {
             return self.candidates.cutoff(term.options);
         }
-        let target = || Target {
-            options: *term.options,
-            term: term.number,
-            data: [scene.r_data(number, body), at.object.data()],
-            s_carrier: at.carrier,
-            ..scene.target(r, SSide::Object(at.object.id), [(body, pose), at.placement])
+        let bounds = scene.bounds().get(body);
+        let target = || {
+            let (placement, data) = scene.r_body(body);
+            Target {
+                options: *term.options,
+                term: term.number,
+                data: [data, at.object.data()],
+                s_carrier: at.carrier,
+                ..scene.target(r, SSide::Object(at.object.id), [placement, at.placement])
+            }
         };
         self.candidates
-            .offer(term.options, [bounds, other], bound, target)
+            .offer(term.options, [&bounds, other], bound, target)
     }
 }
 
@@ -146,34 +144,51 @@ impl<'a> Scene<'a> {
         &'s self,
         term: &ObjectsTerm<'_, 's>,
         candidates: &mut Candidates<'s, '_>,
-        scratch: &mut NearScratch,
+        bodies: &mut IndexSet,
+        near: &mut NearScratch,
     ) {
         let environment = term.objects.environment().serial();
-        let mut bodies = scratch.take_bodies();
-        self.append_r_sides(term.links, candidates.last_link(), environment, &mut bodies);
+        let last_link = candidates.last_link();
+        let carriers = self.space().carriers();
+        let up_to_last = carriers.partition_point(|&link| link <= last_link);
+        bodies.clear(self.body_count());
+        bodies.extend_below(term.bodies, up_to_last);
+        for body in self.held_bodies_of(term.links, environment) {
+            if self.r_side(body).link <= last_link {
+                bodies.insert(body);
+            }
+        }
         let mut offers = ObjectOffers {
             scene: self,
             term,
             candidates,
         };
         match term.objects {
-            SObjects::All(_) => offers.offer_near(&bodies, scratch),
-            SObjects::Some(_, ids) => offers.offer_chosen(&bodies, ids),
+            SObjects::All(_) => offers.offer_near(bodies, near),
+            SObjects::Some(_, ids) => offers.offer_chosen(bodies, ids),
         }
-        offers.offer_attached(&bodies, environment);
-        scratch.keep_bodies(bodies);
+        offers.offer_attached(bodies, environment);
     }
 
-    /// What carries a number of [`Scene::append_r_sides`].
+    /// The numbers of the s-objects of an environment that are attached to links.
+    pub(super) fn held_bodies_of<'s>(
+        &'s self,
+        links: &'s [usize],
+        environment: u64,
+    ) -> impl Iterator<Item = usize> + 's {
+        let first_held = self.space().carriers().len();
+        let held = self.held_of(environment);
+        let held = held.filter(|(_, held)| links.contains(&held.attachment.link));
+        held.map(move |(i, _)| first_held + i)
+    }
+
+    /// Who a body is, by its number.
     #[inline(always)]
-    pub(super) fn r_side(&self, number: usize) -> RSide {
-        match number.checked_sub(self.space().link_count()) {
-            None => RSide {
-                link: number,
-                attached: 0,
-            },
-            Some(i) => {
-                let held = &self.held()[i];
+    pub(super) fn r_side(&self, body: usize) -> RSide {
+        match self.space().carriers().get(body) {
+            Some(&link) => RSide { link, attached: 0 },
+            None => {
+                let held = &self.held()[body - self.space().carriers().len()];
                 RSide {
                     link: held.attachment.link,
                     attached: held.object.id,
@@ -182,46 +197,17 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// The user data of a body with a number of [`Scene::append_r_sides`].
-    fn r_data(&self, number: usize, body: &Body) -> usize {
-        match number.checked_sub(self.space().link_count()) {
-            None => body.data(),
-            Some(i) => self.held()[i].object.data(),
-        }
-    }
-
-    /// Appends the bodies of links and the s-objects attached to them, which are numbered after all links; none of links behind the
-    /// last.
-    pub(super) fn append_r_sides<'s>(
-        &'s self,
-        links: &[usize],
-        last_link: usize,
-        environment: u64,
-        sides: &mut Vec<Named<'s>>,
-    ) {
-        let bounds = self.bounds();
-        for &link in links {
-            if link <= last_link
-                && let Some((body, pose)) = self.link(link)
-            {
-                sides.push(Named {
-                    number: link,
-                    body,
-                    pose,
-                    bounds: &bounds[link],
-                });
+    /// A body by its number, at its pose, with its user data.
+    #[inline(always)]
+    pub(super) fn r_body(&self, body: usize) -> (Placement<'_>, usize) {
+        match self.space().carriers().get(body) {
+            Some(&link) => {
+                let placement = self.link(link).expect("carriers have bodies");
+                (placement, placement.0.data())
             }
-        }
-        let first_held = self.space().link_count();
-        for (i, held) in self.held_of(environment) {
-            let link = held.attachment.link;
-            if link <= last_link && links.contains(&link) {
-                sides.push(Named {
-                    number: first_held + i,
-                    body: &held.object.body,
-                    pose: &held.pose,
-                    bounds: &bounds[first_held + i],
-                });
+            None => {
+                let held = &self.held()[body - self.space().carriers().len()];
+                ((&*held.object.body, &held.pose), held.object.data())
             }
         }
     }

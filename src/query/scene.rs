@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::target::Placement;
 use super::world::World;
-use crate::body_bounds::Bounds;
+use crate::body_bounds::{Bounds, BoundsByEight};
 use crate::cobject::{Induced, SpaceState};
 use crate::environment::{Attachment, SObject};
 use crate::error::{Error, Result};
@@ -35,8 +35,8 @@ pub struct Scene<'a> {
     /// Attached s-objects, in order of their environments' serials.
     held: Vec<AttachedObject<'a>>,
     /// See [`Scene::bounds`].
-    bounds: OnceCell<Vec<Bounds>>,
-    bounds_memory: Cell<Vec<Bounds>>,
+    bounds: OnceCell<BoundsByEight>,
+    bounds_memory: Cell<BoundsByEight>,
 }
 
 /// Memory of a scene, reused by the next.
@@ -44,7 +44,7 @@ pub struct Scene<'a> {
 pub struct SceneMemory {
     poses: Vec<Pose>,
     held: Vec<AttachedObject<'static>>,
-    bounds: Vec<Bounds>,
+    bounds: BoundsByEight,
 }
 
 /// An s-object attached to a link, with its pose in the world.
@@ -67,11 +67,11 @@ impl<'a> Scene<'a> {
         memory: SceneMemory,
     ) -> Result<Self> {
         let mut computed = memory.poses;
-        computed.clear();
         let (q, given) = match configuration {
             Configuration::Coordinates(q) => {
                 space.check_configuration(q)?;
-                space.append_link_poses(q, &mut computed)?;
+                computed.resize(space.link_count(), Pose::IDENTITY);
+                space.write_link_poses(q, &mut computed)?;
                 (Some(q), None)
             }
             Configuration::LinkPoses(poses) => {
@@ -153,18 +153,28 @@ impl<'a> Scene<'a> {
         Some((body, &self.poses()[link]))
     }
 
-    /// The bounds of all links' bodies, then of the s-objects attached to links; computed when they are first asked for. Those of a
-    /// link without a body mean nothing.
-    pub fn bounds(&self) -> &[Bounds] {
+    /// The bounds of all bodies that move with the robot, by their numbers: those of links, in the links' order, then the s-objects
+    /// attached to links. Computed when they are first asked for.
+    pub fn bounds(&self) -> &BoundsByEight {
         self.bounds.get_or_init(|| {
             let mut bounds = self.bounds_memory.take();
-            bounds.clear();
             with_widest(BoundAll {
                 scene: self,
                 bounds: &mut bounds,
             });
             bounds
         })
+    }
+
+    /// The bounds of a link's body, if it has one.
+    pub fn bounds_of_link(&self, link: usize) -> Option<Bounds> {
+        let number = self.space.body_number(link)?;
+        Some(self.bounds().get(number))
+    }
+
+    /// How many bodies move with the robot.
+    pub fn body_count(&self) -> usize {
+        self.space.carriers().len() + self.held.len()
     }
 
     /// The s-objects attached to links.
@@ -194,7 +204,7 @@ impl<'a> Scene<'a> {
 /// Bounds all bodies that move with the robot.
 struct BoundAll<'b, 'a> {
     scene: &'b Scene<'a>,
-    bounds: &'b mut Vec<Bounds>,
+    bounds: &'b mut BoundsByEight,
 }
 
 impl Work for BoundAll<'_, '_> {
@@ -202,18 +212,11 @@ impl Work for BoundAll<'_, '_> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, lanes: I) {
-        let scene = self.scene;
-        let poses = scene.poses();
-        self.bounds.reserve(poses.len() + scene.held.len());
-        for (link, pose) in poses.iter().enumerate() {
-            self.bounds.push(match scene.space.body(link) {
-                Some(body) => Bounds::of(lanes, body, pose),
-                None => Bounds::default(),
-            });
-        }
+        let Self { scene, bounds } = self;
+        let space = scene.space;
+        bounds.carry(lanes, space.own_bounds(), space.carriers(), scene.poses());
         for held in &scene.held {
-            let bounds = Bounds::of(lanes, &held.object.body, &held.pose);
-            self.bounds.push(bounds);
+            bounds.push(&Bounds::of(lanes, &held.object.body, &held.pose));
         }
     }
 }

@@ -8,9 +8,15 @@ use crate::pose::{Pose, PoseColumns};
 use crate::turn::Turn;
 
 impl Robot {
-    /// Appends the pose of every link at configuration q, in the world. `q` has `nq()` entries. Fails only in a custom
-    /// joint.
-    pub fn link_poses(&self, q: &[f64], poses: &mut Vec<Pose>) -> Result<()> {
+    /// The pose of every link at configuration q, in the world. `q` has `nq()` entries. Fails only in a custom joint.
+    pub fn link_poses(&self, q: &[f64]) -> Result<Vec<Pose>> {
+        let mut poses = vec![Pose::IDENTITY; self.links().len()];
+        self.write_link_poses(q, &mut poses)?;
+        Ok(poses)
+    }
+
+    /// The same, into one place for each link.
+    pub fn write_link_poses(&self, q: &[f64], poses: &mut [Pose]) -> Result<()> {
         with_widest(LinkPoses {
             robot: self,
             q,
@@ -22,7 +28,7 @@ impl Robot {
 struct LinkPoses<'a> {
     robot: &'a Robot,
     q: &'a [f64],
-    poses: &'a mut Vec<Pose>,
+    poses: &'a mut [Pose],
 }
 
 impl Work for LinkPoses<'_> {
@@ -31,10 +37,7 @@ impl Work for LinkPoses<'_> {
     #[inline(always)]
     fn run<I: Instructions>(self, lanes: I) -> Result<()> {
         let Self { robot, q, poses } = self;
-        let first = poses.len();
         let links = robot.links();
-        poses.resize(first + links.len(), Pose::IDENTITY);
-        let poses = &mut poses[first..];
         let mut turns = Turns::new(robot, q);
         // The link before, which most links follow: what was just stored would have to be waited for.
         let mut before = PoseColumns::of(lanes, &Pose::IDENTITY);

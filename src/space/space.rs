@@ -5,7 +5,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::WorldBox;
 use crate::body::Body;
+use crate::body_bounds::{Bounds, BoundsByEight};
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
+use crate::lanes::Plain;
 use crate::pose::{Pose, Vec3};
 use crate::robot::{
     Block, Column, Coordinate, CoordinateCourses, Link, LinkMotions, Robot, RobotState, Velocity,
@@ -33,6 +35,11 @@ pub struct Space {
     links: usize,
     /// The body of each link, if it has one.
     bodies: Vec<Option<Arc<Body>>>,
+    carriers: Vec<usize>,
+    /// The place of each link among them.
+    body_numbers: Vec<Option<u32>>,
+    /// See [`Space::own_bounds`].
+    own_bounds: BoundsByEight,
     nv: usize,
     coordinates: Vec<Coordinate>,
     blocks: Vec<Block>,
@@ -102,12 +109,24 @@ impl Space {
             }
         }
         world.check()?;
+        let carriers: Vec<usize> = (0..links).filter(|&link| bodies[link].is_some()).collect();
+        let mut body_numbers = vec![None; links];
+        for (number, &link) in (0..).zip(&carriers) {
+            body_numbers[link] = Some(number);
+        }
+        let mut own_bounds = BoundsByEight::default();
+        for body in bodies.iter().flatten() {
+            own_bounds.push(&Bounds::of(Plain, body, &Pose::IDENTITY));
+        }
         Ok(Self {
             serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
             robots,
             offsets,
             links,
             bodies,
+            carriers,
+            body_numbers,
+            own_bounds,
             nv,
             coordinates,
             blocks,
@@ -197,6 +216,23 @@ impl Space {
         self.bodies.get(link)?.as_deref()
     }
 
+    /// The links with bodies, in order. A body's number is its place here.
+    pub(crate) fn carriers(&self) -> &[usize] {
+        &self.carriers
+    }
+
+    /// The number of a link's body, if it has one.
+    #[inline]
+    pub(crate) fn body_number(&self, link: usize) -> Option<usize> {
+        let number = *self.body_numbers.get(link)?;
+        number.map(|number| number as usize)
+    }
+
+    /// The bounds of the bodies, by their numbers, in the frames of their links.
+    pub(crate) fn own_bounds(&self) -> &BoundsByEight {
+        &self.own_bounds
+    }
+
     /// Whether the SRDF file of a robot rules out this pair of its links for self-collision.
     pub fn is_pair_disabled(&self, pair: [usize; 2]) -> bool {
         let robot = self.robot_of(pair[0]);
@@ -209,25 +245,27 @@ impl Space {
 
     /// All pairs of links with bodies but those that an SRDF file rules out, in order of their numbers.
     pub fn enabled_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
-        let has_body = |link: &usize| self.link(*link).is_some_and(|l| l.body.is_some());
-        let links: Vec<usize> = (0..self.links).filter(has_body).collect();
+        let links = &self.carriers;
         let count = links.len();
         let pairs = (0..count).flat_map(move |i| (i + 1..count).map(move |k| [i, k]));
-        let pairs = pairs.map(move |pair| pair.map(|i| links[i]));
+        let pairs = pairs.map(|pair| pair.map(|i| links[i]));
         pairs.filter(|&pair| !self.is_pair_disabled(pair))
     }
 
     /// The poses of all links at q, in the world. Fails only in a custom joint.
     pub fn link_poses(&self, q: &[f64]) -> Result<Vec<Pose>> {
-        let mut poses = Vec::with_capacity(self.links);
-        self.append_link_poses(q, &mut poses)?;
+        let mut poses = vec![Pose::IDENTITY; self.links];
+        self.write_link_poses(q, &mut poses)?;
         Ok(poses)
     }
 
-    /// Appends the poses of all links at q to `poses`.
-    pub fn append_link_poses(&self, q: &[f64], poses: &mut Vec<Pose>) -> Result<()> {
-        for robot in 0..self.robots.len() {
-            self.robots[robot].link_poses(&q[self.coordinates_of(robot)], poses)?;
+    /// The same, into one place for each link.
+    pub fn write_link_poses(&self, q: &[f64], poses: &mut [Pose]) -> Result<()> {
+        let mut rest = poses;
+        for (number, robot) in self.robots.iter().enumerate() {
+            let (own, others) = rest.split_at_mut(robot.links().len());
+            robot.write_link_poses(&q[self.coordinates_of(number)], own)?;
+            rest = others;
         }
         Ok(())
     }

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use cstk::body::{Body, BodyBuilder};
-use cstk::body_bounds::Bounds;
-use cstk::environment::{Addition, Attachment, Change, Environment, Named, NearScratch, Snapshot};
+use cstk::body_bounds::{Bounds, BoundsByEight};
+use cstk::environment::{Addition, Attachment, Change, Environment, NearScratch, Snapshot};
 use cstk::hierarchy::HierarchyOptions;
+use cstk::index_set::IndexSet;
 use cstk::lanes::Plain;
 use cstk::pose::{Pose, Vec3};
 use cstk::query::QueryContext;
@@ -119,19 +120,22 @@ fn check(state: &Snapshot, model: &Model, probe: &Body, random: &mut Random) {
             rotation: random.rotation(),
         };
         let mut found = BTreeMap::new();
-        let named = Named {
-            number: 0,
-            body: probe,
-            pose: &at,
-            bounds: &Bounds::of(Plain, probe, &at),
-        };
-        state
-            .tree()
-            .visit_near(&[named], limit, &mut scratch, |_, place, at_least| {
+        let mut bounds = BoundsByEight::default();
+        bounds.push(&Bounds::of(Plain, probe, &at));
+        let mut first = IndexSet::new(1);
+        first.insert(0);
+        let tree = state.tree();
+        tree.visit_near(
+            &bounds,
+            &first,
+            limit,
+            &mut scratch,
+            |_, place, at_least| {
                 let is_new = found.insert(state.object(place).id, at_least).is_none();
                 assert!(is_new, "an object was visited twice");
                 limit
-            });
+            },
+        );
         for (id, (body, pose, is_attached)) in model {
             let answer = context.pair_distance((probe, &at), (body, pose), f64::INFINITY);
             let distance = answer.unwrap().distance;

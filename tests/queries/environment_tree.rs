@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use cstk::body::Body;
-use cstk::body_bounds::Bounds;
-use cstk::environment::{Change, Environment, Named, NearScratch};
+use cstk::body_bounds::{Bounds, BoundsByEight};
+use cstk::environment::{Change, Environment, NearScratch};
+use cstk::index_set::IndexSet;
 use cstk::lanes::Plain;
 use cstk::pose::{Pose, Vec3};
 
@@ -18,18 +19,15 @@ fn looked_at(environment: &Environment, body: &Body, at: &[Pose], limit: f64) ->
     let mut scratch = NearScratch::default();
     let mut count = 0;
     for pose in at {
-        let named = Named {
-            number: 0,
-            body,
-            pose,
-            bounds: &Bounds::of(Plain, body, pose),
-        };
-        snapshot
-            .tree()
-            .visit_near(&[named], limit, &mut scratch, |_, _, _| {
-                count += 1;
-                limit
-            });
+        let mut bounds = BoundsByEight::default();
+        bounds.push(&Bounds::of(Plain, body, pose));
+        let mut first = IndexSet::new(1);
+        first.insert(0);
+        let tree = snapshot.tree();
+        tree.visit_near(&bounds, &first, limit, &mut scratch, |_, _, _| {
+            count += 1;
+            limit
+        });
     }
     count
 }

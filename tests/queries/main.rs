@@ -1,5 +1,6 @@
 //! C-objects among environments: classes, distances, witnesses, gradients.
 
+mod bodies_by_eight;
 mod boolean_sets;
 mod candidates;
 mod contact_gradients;

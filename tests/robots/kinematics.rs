@@ -137,8 +137,7 @@ fn the_reports_two_link_arm() {
     links[1].at = Pose::from_translation(Vec3::new(x0, 0.0, 0.0));
     let robot = robot(3, links);
     for q in [[0.4, -1.1], [0.0, 0.0], [3.0, 2.9]] {
-        let mut poses = Vec::new();
-        robot.link_poses(&q, &mut poses).unwrap();
+        let poses = robot.link_poses(&q).unwrap();
         let (t0, t01) = (q[0], q[0] + q[1]);
         // (34)
         let turned = rotation_about(&Vec3::z(), t01);
@@ -194,8 +193,7 @@ fn the_ensemble_of_appendix_a() {
             ..link(i.checked_sub(1), JointKind::Revolute, Vec3::z())
         });
     let robot = robot(3, links.collect());
-    let mut poses = Vec::new();
-    robot.link_poses(&[0.0; 3], &mut poses).unwrap();
+    let poses = robot.link_poses(&[0.0; 3]).unwrap();
     assert!((poses[1].rotation * Vec3::y() - Vec3::z()).amax() < 1e-15);
     assert!((poses[2].translation - Vec3::new(6.5, 2.875 + 2.125, 0.0)).amax() < 1e-14);
 }
@@ -384,11 +382,9 @@ fn faulty_maps_are_named() {
             ..link(None, JointKind::Custom(Arc::new(Faulty(fault))), Vec3::z())
         };
         let robot = robot(3, vec![definition]);
-        let mut poses = Vec::new();
-        let found = robot.link_poses(&[0.0], &mut poses);
-        let error = match found {
+        let error = match robot.link_poses(&[0.0]) {
             Err(error) => error,
-            Ok(()) => robot
+            Ok(poses) => robot
                 .jacobian(
                     RobotState {
                         q: &[0.0],

@@ -56,8 +56,7 @@ fn joints_of_every_type() {
     q[joint("slide_joint").coordinate] = 0.3;
     let plane = joint("plane_joint").coordinate;
     q[plane..plane + 3].copy_from_slice(&[0.2, 0.3, 0.4]);
-    let mut poses = Vec::new();
-    robot.link_poses(&q, &mut poses).unwrap();
+    let poses = robot.link_poses(&q).unwrap();
     let pose = |name: &str| &poses[robot.find_link(name).unwrap()];
     let arm = Pose {
         rotation: rotation_about(&Vec3::z(), std::f64::consts::FRAC_PI_2 + 0.5),
@@ -91,8 +90,7 @@ fn planes_turn_about_their_axis_whichever_way_it_points() {
             r#"<link name="base"/><link name="plane"/><joint name="j" type="planar"><parent link="base"/><child link="plane"/><axis xyz="{x} {y} {z}"/></joint>"#
         );
         let robot = robot("plane_axes", &plane).unwrap();
-        let mut poses = Vec::new();
-        robot.link_poses(&[0.2, 0.3, 0.4], &mut poses).unwrap();
+        let poses = robot.link_poses(&[0.2, 0.3, 0.4]).unwrap();
         let pose = &poses[robot.find_link("plane").unwrap()];
         let axis = axis.normalize();
         assert!(

@@ -248,9 +248,7 @@ fn link_of(robot: &Robot, link: u32) -> Result<&Link, Failure> {
 fn poses_at(robot: &Robot, q: &[f64], link: u32) -> Result<Vec<Pose>, Failure> {
     check_configuration(q, robot.nq(), robot.blocks())?;
     link_of(robot, link)?;
-    let mut poses = Vec::new();
-    robot.link_poses(q, &mut poses)?;
-    Ok(poses)
+    Ok(robot.link_poses(q)?)
 }
 
 /// Writes the pose of a link in the world at configuration q (`nq` doubles; forward kinematics, §4.2), as 12 doubles.
