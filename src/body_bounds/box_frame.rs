@@ -7,6 +7,9 @@ use crate::lanes::{cross3, each3};
 use crate::pair::ROUNDING;
 use crate::pose::Vec3;
 
+/// No unit is less than this. Points that all lie in one place have no extent to take it from, and a quotient of units must be a number.
+pub const SMALLEST_UNIT: f64 = 1e-150;
+
 /// A place of the world and a unit in which boxes are compared in single precision: a power of two about as large as the extent of
 /// everything.
 #[derive(Clone, Copy, Debug)]
@@ -47,12 +50,13 @@ impl BoxFrame {
     /// Two bodies of the frame deviate by at most `deviation` together.
     #[inline(always)]
     pub fn new(center: Vec3, limits: &FrameLimits, deviation: f64) -> Self {
-        let scale = power_of_two_above(limits.size);
+        let size = limits.size.max(SMALLEST_UNIT);
+        let scale = power_of_two_above(size);
         Self {
             center,
             scale,
             inverse_scale: 1.0 / scale,
-            slack: slack(limits.largest_coordinate, deviation) + ROUNDING * limits.size,
+            slack: slack(limits.largest_coordinate, deviation) + ROUNDING * size,
         }
     }
 

@@ -6,4 +6,4 @@ mod box_frame;
 
 pub use bounds::{Bounds, slack};
 pub use bounds_by_eight::{BoundsByEight, ChosenBodies};
-pub use box_frame::{BoxFrame, FrameLimits};
+pub use box_frame::{BoxFrame, FrameLimits, SMALLEST_UNIT};

@@ -59,7 +59,7 @@ pub fn beside_cylinder(
     let found = Closest::between(points, [Feature::surface(), feature]);
     let lower = direction.dot(&(on.support(&-direction) - core.support(&direction)));
     let is_proved = lower > tolerance::SUPPORT_ERROR * size
-        && found.distance - lower <= tolerance::CERTIFIED_GAP * size;
+        && (found.distance - lower).abs() <= tolerance::CERTIFIED_GAP * size;
     is_proved.then_some((found, direction))
 }
 

@@ -219,7 +219,7 @@ impl Search<'_> {
         }
         let found = Closest::between([on_a.at(s), on_b.at(t)], edges);
         let gap = normal.dot(&(ends_b.0 - ends_a.0)).abs() / length;
-        (found.distance - gap <= tolerance::CERTIFIED_GAP * self.size).then_some(found)
+        ((found.distance - gap).abs() <= tolerance::CERTIFIED_GAP * self.size).then_some(found)
     }
 
     /// The direction from B to A along an axis, in the pair's frame.

@@ -2,7 +2,7 @@
 //! It reaches the last digit in a few steps, where GJK alone halves the error in each.
 
 use super::core::Core;
-use super::surface_part::{PartSupport, SurfacePart};
+use super::surface_part::{PartSupport, SurfacePart, perpendicular_to};
 use crate::gjk::{Names, Nearby, Support};
 use crate::pose::Vec3;
 
@@ -248,13 +248,14 @@ impl<'a> NearestParts<'a> {
         off.norm_squared() <= self.accepted * apart.abs()
     }
 
-    /// The points, if the direction certifies their distance to within the accepted gap.
+    /// The points, if the direction certifies their distance to within the accepted gap. Points nearer to each other than that by more
+    /// are not points of the cores.
     #[inline(always)]
     fn accept(&self, direction: &Vec3, points: [Vec3; 2]) -> Option<Nearby> {
         let [a, b] = self.cores;
         let lower = direction.dot(&(a.support(&-direction) - b.support(direction)));
         let upper = (points[0] - points[1]).norm();
-        (upper - lower <= self.accepted).then_some(Nearby {
+        ((upper - lower).abs() <= self.accepted).then_some(Nearby {
             lower,
             direction: *direction,
             points,
@@ -289,18 +290,6 @@ fn turned_by(direction: &Vec3, step: &Vec3) -> Option<Vec3> {
         1.0
     };
     (direction + step * part).try_normalize(0.0)
-}
-
-/// Two unit vectors perpendicular to a third and to each other.
-#[inline(always)]
-fn perpendicular_to(direction: &Vec3) -> (Vec3, Vec3) {
-    let other = if direction.x.abs() < 0.6 {
-        Vec3::x()
-    } else {
-        Vec3::y()
-    };
-    let x = direction.cross(&other).normalize();
-    (x, direction.cross(&x))
 }
 
 /// The unit direction that satisfies two constraints that are not parallel; of two solutions the one nearer to a guess. `None` where there

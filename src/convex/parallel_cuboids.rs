@@ -210,5 +210,5 @@ fn is_proved(axes: &CuboidAxes, way: &Vec3, size: f64) -> bool {
     let seen_by_b = turned_back(&axes.turn, &direction);
     let extents = direction.abs().dot(&axes.half_a) + seen_by_b.abs().dot(&axes.half_b);
     let lower = -direction.dot(&axes.between) - extents;
-    distance > GAP_ERROR * size && distance - lower <= tolerance::CERTIFIED_GAP * size
+    distance > GAP_ERROR * size && (distance - lower).abs() <= tolerance::CERTIFIED_GAP * size
 }

@@ -455,12 +455,29 @@ fn middle_of_positive<const N: usize>(functions: [(f64, f64); N], half: f64) -> 
     (low <= high).then_some(0.5 * (low + high))
 }
 
-/// The component of a direction perpendicular to an axis: normalized, and its length.
+/// The component of a direction perpendicular to an axis: normalized, and its length. Any perpendicular and 0 where the direction is the
+/// axis to rounding.
 #[inline(always)]
 fn across(direction: &Vec3, axis: &Vec3) -> (Vec3, f64) {
-    let away = direction - axis * axis.dot(direction);
+    let once = direction - axis * axis.dot(direction);
     // Projected twice: near the axis, rounding along it would not be small compared with the remainder.
-    let away = away - axis * axis.dot(&away);
+    let away = once - axis * axis.dot(&once);
     let length = away.norm();
+    // What is left of rounding alone may point anywhere, along the axis too.
+    if length <= 0.5 * once.norm() || length == 0.0 {
+        return (perpendicular_to(axis).0, 0.0);
+    }
     (away / length, length)
+}
+
+/// Two unit vectors perpendicular to a third and to each other.
+#[inline(always)]
+pub fn perpendicular_to(direction: &Vec3) -> (Vec3, Vec3) {
+    let other = if direction.x.abs() < 0.6 {
+        Vec3::x()
+    } else {
+        Vec3::y()
+    };
+    let x = direction.cross(&other).normalize();
+    (x, direction.cross(&x))
 }

@@ -1,8 +1,10 @@
 //! Smooth primitives: every distance is proved anew, from above by two points whose sets hold them by their equations, from
 //! below by a direction along which closed-form support values leave that gap.
 
+use std::f64::consts::FRAC_PI_2;
+
 use cstk::body::Body;
-use cstk::pose::{Pose, Vec3};
+use cstk::pose::{Pose, Vec3, rotation_about};
 use cstk::query::QueryContext;
 
 use helpers::all_cases;
@@ -11,14 +13,27 @@ use helpers::random::Random;
 
 /// Asks both ways and proves the answer. `None` for sets that meet.
 fn proved(sets: [&Set; 2], bodies: [&Body; 2], pose: &Pose, allowed: f64) -> Option<f64> {
-    let here = Pose::identity();
+    proved_under(&Pose::identity(), sets, bodies, pose, allowed)
+}
+
+/// The same with both in a frame at a pose.
+fn proved_under(
+    common: &Pose,
+    sets: [&Set; 2],
+    bodies: [&Body; 2],
+    pose: &Pose,
+    allowed: f64,
+) -> Option<f64> {
     let [a, b] = bodies;
     let ask = |one, other| {
         let found = QueryContext::new().pair_distance(one, other, f64::INFINITY);
         found.unwrap()
     };
-    let found = ask((a, &here), (b, pose));
-    let swapped = ask((b, pose), (a, &here));
+    let there = common.compose(pose);
+    let mut found = ask((a, common), (b, &there));
+    let swapped = ask((b, &there), (a, common));
+    let to_frame = common.inverse();
+    found.points = found.points.map(|point| to_frame.transform_point(&point));
     let size = sets[0].size().max(pose.translation.norm() + sets[1].size());
     let error = allowed * size;
     let text = format!("{sets:?} {pose:?} {found:?}");
@@ -55,7 +70,7 @@ fn proved(sets: [&Set; 2], bodies: [&Body; 2], pose: &Pose, allowed: f64) -> Opt
         n.dot(&-pose.translation) - sets[0].reach(&-n) - sets[1].reach(&turned)
     };
     // The contact's normal, too, must prove the distance: so it is the normal.
-    let normal = found.contact.expect("a contact").normal;
+    let normal = to_frame.rotation * found.contact.expect("a contact").normal;
     let proof = gap(&normal);
     assert!(proof >= found.distance - error, "{proof} {text}");
     assert!(
@@ -130,6 +145,51 @@ fn all_scales_and_degenerate_sizes() {
             }
         }
     }
+}
+
+/// What stands on one axis or in one plane of symmetry, upright, upside down or on its side, the whole turned a little or much: supports
+/// are many there, and directions of no length.
+#[test]
+fn special_positions() {
+    let mut random = Random::new(80);
+    let mut apart = 0;
+    for _ in 0..if all_cases() { 400_000 } else { 40_000 } {
+        let shape = |random: &mut Random| {
+            let kind = random.below(8);
+            let size = |random: &mut Random| 10f64.powf(random.within(-3.0, 0.0));
+            let (a, b, c) = (size(random), size(random), size(random));
+            match kind {
+                0 => Cylinder(a, b),
+                1 => Cone(a, b),
+                2 => Ellipsoid(Vec3::new(a, b, c)),
+                3 => Points(vec![Vec3::z() * a, Vec3::z() * -a]),
+                _ => {
+                    let corners = [Vec3::x() * a, Vec3::y() * b, Vec3::z() * c];
+                    Points(corners.iter().flat_map(|v| [*v, -v]).collect())
+                }
+            }
+        };
+        let sets = [shape(&mut random), shape(&mut random)];
+        let bodies = [sets[0].body(), sets[1].body()];
+        let axis = [Vec3::x(), Vec3::y(), Vec3::z()][random.below(3)];
+        let over = [Vec3::x(), Vec3::y()][random.below(2)];
+        let quarters = random.below(4) as f64;
+        let aside = random.below(2) as f64 * 10f64.powf(random.within(-6.0, 0.0));
+        let way = [Vec3::x(), Vec3::y(), Vec3::z()][random.below(3)];
+        let pose = Pose {
+            rotation: rotation_about(&over, quarters * FRAC_PI_2),
+            translation: axis * random.within(0.0, 2.0) + way * (aside * sets[0].size()),
+        };
+        // About a coordinate axis, zeros of the relative rotation stay zeros.
+        let about = [Vec3::x(), Vec3::y(), random.unit()][random.below(3)];
+        let common = Pose {
+            rotation: rotation_about(&about, 10f64.powf(random.within(-7.0, 0.5))),
+            translation: random.point(1.0),
+        };
+        let (sets, bodies) = ([&sets[0], &sets[1]], [&bodies[0], &bodies[1]]);
+        apart += usize::from(proved_under(&common, sets, bodies, &pose, 2e-10).is_some());
+    }
+    assert!(apart > 20_000, "{apart}");
 }
 
 /// Far from the origin of their body's frame, and near contact.

@@ -3,6 +3,7 @@
 
 use super::four_boxes::FourBoxes;
 use super::oriented_box::OrientedBox;
+use crate::body_bounds::SMALLEST_UNIT;
 use crate::boxes::{Extent, WideNode};
 use crate::cow_vec::CowVec;
 use crate::hierarchy::grouping::{Forest, levels_for, split_within};
@@ -181,8 +182,7 @@ impl TreeFrame {
     /// A frame for boxes within `size` of a centre.
     pub(crate) fn new(center: Vec3, size: f64) -> Self {
         // The squares of smaller lengths round to 0, which would make far boxes seem near.
-        const SMALLEST: f64 = 1e-150;
-        let scale = power_of_two_above(size.max(SMALLEST));
+        let scale = power_of_two_above(size.max(SMALLEST_UNIT));
         Self { center, scale }
     }
 
