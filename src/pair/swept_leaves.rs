@@ -32,8 +32,8 @@ pub enum SweptLeaves {
     Undecided([f32; 3]),
 }
 
-/// Closest points have errors of some EPSILON of the pair's size L, and the direction between them one of that over their distance d.
-/// What it tilts shows in a gap once d^2 is at most this times L and the motion's length.
+/// Closest points have errors of some EPSILON of the pair's size L, and the direction between them one of that over their distance d. What
+/// it tilts takes that times L off a gap, which shows once d times what the gap has to spare is at most this times L^2.
 const HAIR: f64 = 1e4 * EPSILON;
 
 /// The direction that parts two hulls is looked for no longer once they are as near as this part of their size: no interval is then long
@@ -145,8 +145,9 @@ impl Pairing<'_> {
         if self.stays_apart(places, &direction, sweep, needed, scratch) {
             return SweptLeaves::Free;
         }
-        let is_hair = apart.distance * apart.distance
-            <= HAIR * self.precision.size * limits.displacement.min(self.precision.size);
+        let to_spare = lower - needed;
+        let is_hair = to_spare > 0.0
+            && apart.distance * to_spare <= HAIR * self.precision.size * self.precision.size;
         let normal = is_hair.then(|| self.contact_direction(places, scratch));
         let direction = normal.flatten().unwrap_or(direction);
         if is_hair && self.stays_apart(places, &direction, sweep, needed, scratch) {

@@ -14,6 +14,7 @@ mod discs;
 mod forged;
 mod free_limits;
 mod known_classes;
+mod long_bodies;
 mod map_boundaries;
 mod map_ends;
 mod map_files;
