@@ -14,7 +14,8 @@ use crate::pose::Vec3;
 use crate::tolerance;
 
 /// The convex hull of `points`. Points that all coincide give a point, collinear ones a segment, coplanar ones a flat
-/// polygon, others a solid. Only points that are corners of the hull are kept.
+/// polygon, others a solid. Only points that are corners of the hull are kept; how far others may lie from what is kept is its
+/// deviation.
 pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
     if points.is_empty() {
         return Err(Error::new(
@@ -47,7 +48,7 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
             vertices: smallvec![points[0]],
             edges: SharedList::cycle(1),
             faces: SmallVec::new(),
-            deviation: 0.0,
+            deviation: length,
             curve: None,
         });
     }
@@ -59,7 +60,8 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
             vertices: smallvec![first, second],
             edges: vec![[0, 1]].into(),
             faces: SmallVec::new(),
-            deviation: 0.0,
+            // Beside the line, and beyond its ends by less.
+            deviation: 2.0 * width,
             curve: None,
         });
     }
@@ -70,7 +72,12 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
         let ring = planar_ring(points, &normal, tolerance);
         let corners = (0..ring.len() as u32).collect();
         let vertices = ring.iter().map(|&i| points[i as usize]).collect();
-        return Ok(Convex::from_cycle(vertices, corners, normal));
+        let mut polygon = Convex::from_cycle(vertices, corners, normal);
+        // Off the plane of a corner that may be as far on its other side, and beside the outline.
+        let keeps_all = planar_ring(points, &normal, 0.0).len() == ring.len();
+        let beside = if keeps_all { 0.0 } else { 2.0 * tolerance };
+        polygon.deviation = polygon.deviation.max(2.0 * thickness + beside);
+        return Ok(polygon);
     }
     solid(points, extent.diameter)
 }

@@ -30,8 +30,8 @@ impl Convex {
         };
         moved.deviation = match &moved.faces[..] {
             [] => self.deviation,
-            // The heights of all vertices are all that deviates of a polygon.
-            [_] => moved.height_off_faces(),
+            // The heights of all vertices are all that deviates of a polygon, but for points that were left out.
+            [_] => moved.height_off_faces().max(self.deviation),
             _ => self.deviation + moved.height_off_faces(),
         };
         if let Some(curve) = &self.curve {

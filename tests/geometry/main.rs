@@ -8,6 +8,7 @@ mod deep_overlaps;
 mod depth_frames;
 mod depths;
 mod depths_in_cavities;
+mod flattened;
 mod given_pairs;
 mod kernel;
 mod laws;
