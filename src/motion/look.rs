@@ -274,19 +274,26 @@ impl<P: Piece> Look<'_, '_, P> {
 
     /// Whether the hulls of a pair stay apart through the piece. Tried once a piece, of pairs for which many boxes were opened.
     pub(super) fn parts_hulls(&mut self, number: u32, work: u32) -> bool {
-        let pair = &self.pairs[number as usize];
-        if self.leaf.complement || !pair.count_groups(work) || !self.pair.tries_hulls(number) {
+        let place = number as usize;
+        if self.leaf.complement
+            || !self.over.hulls(place).count(work)
+            || !self.pair.tries_hulls(number)
+        {
             return false;
         }
-        let over = self.over.of(number as usize, self.pairs, self.piece);
+        let over = self.over.of(place, self.pairs, self.piece);
         let PairOver::Near(_) = over else {
             return false;
         };
+        let pair = &self.pairs[place];
         let moved = self.piece.moved(pair);
         self.scratch.count_primitive_pair();
-        let are_parted = pair.hulls_stay_apart(moved, self.scratch.for_primitives());
+        let scratch = self.scratch.for_primitives();
+        let hulls = self.over.hulls(place);
+        let are_parted =
+            hulls.are_parted(|direction| pair.hulls_stay_apart(moved, direction, scratch));
         if are_parted {
-            self.over.part(number as usize);
+            self.over.part(place);
         }
         are_parted
     }

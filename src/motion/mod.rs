@@ -12,6 +12,7 @@ mod function;
 mod gathering;
 mod goal_box;
 mod half_spaces;
+mod hulls_tried;
 mod interval_proof;
 mod kinematics;
 mod linear_motion;

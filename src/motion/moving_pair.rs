@@ -1,7 +1,5 @@
 //! Two bodies, one of which moves as the other sees it, and what is known of them over an interval of the motion.
 
-use std::cell::Cell;
-
 use super::balls::Balls;
 use super::carried::Carried;
 use super::kinematics::{CenterMotion, Kinematics, Relative};
@@ -31,23 +29,7 @@ pub(super) struct MovingPair<'a> {
     pub leaf: u32,
     /// Intervals before this time need no proof.
     pub followed_from: f64,
-    hulls: HullsTried,
 }
-
-/// What is known of the hulls of two bodies on a motion. Links that are never far apart, as those with two joints between them, mostly have
-/// hulls that are apart all the while, and a single direction says so where boxes would have to be opened by the dozen.
-#[derive(Clone, Default)]
-struct HullsTried {
-    /// Groups of boxes that were opened for the pair so far, up to those before hulls are tried.
-    groups: Cell<u32>,
-    /// The direction that parted them last, in B's frame, or zero.
-    direction: Cell<[f32; 3]>,
-}
-
-/// After so many groups of boxes the hulls of a pair are tried: pairs that are far apart take fewer.
-const GROUPS_BEFORE_HULLS: u32 = 16;
-/// The number of groups of a pair whose hulls meet.
-const HULLS_MEET: u32 = u32::MAX;
 
 /// What is known of a pair's relative motion.
 #[derive(Clone, Copy, Debug)]
@@ -101,49 +83,32 @@ impl<'a> MovingPair<'a> {
             threshold: threshold + stated_deviation,
             leaf,
             followed_from: 0.0,
-            hulls: HullsTried::default(),
         })
     }
 
-    /// Counts work on the pair, in groups of boxes. Whether it is worth trying the hulls of the bodies.
-    pub fn count_groups(&self, groups: u32) -> bool {
-        let before = self.hulls.groups.get();
-        if before == HULLS_MEET {
-            return false;
-        }
-        self.hulls
-            .groups
-            .set(before.saturating_add(groups).min(GROUPS_BEFORE_HULLS));
-        before >= GROUPS_BEFORE_HULLS
-    }
-
-    /// Whether the convex hulls of the bodies stay apart through a piece, and so all that these are made of.
+    /// Whether the convex hulls of the bodies stay apart through a piece, and so all that these are made of. `direction`, from B to A in
+    /// B's frame or zero, is tried first; it becomes one that parts them where they are compared, or zero where none was found.
     pub fn hulls_stay_apart<L: TwistLists>(
         &self,
         moved: Moved<L>,
+        direction: &mut [f32; 3],
         scratch: &mut PrimitiveScratch,
     ) -> bool {
         let [Some((a, outside_a)), Some((b, outside_b))] = self.bodies().map(Body::hull) else {
-            self.hulls.groups.set(HULLS_MEET);
+            *direction = [0.0; 3];
             return false;
         };
         let moved = moved.seen_from(&(a.center() - self.a.body.center()));
         let mut over = self.placed_as([a, b], moved);
         let Some(places) = over.pairing.only_places() else {
+            *direction = [0.0; 3];
             return false;
         };
         let deviation: f64 = self.bodies().map(Body::deviation).iter().sum();
         over.limits.slack += 2.0 * (outside_a + outside_b + deviation);
-        let mut direction = self.hulls.direction.get();
         let (sweep, limits) = (over.sweep(), &over.limits);
-        let are_parted =
-            over.pairing
-                .parted_by_one(places, &mut direction, &sweep, limits, scratch);
-        self.hulls.direction.set(direction);
-        if direction == [0.0; 3] {
-            self.hulls.groups.set(HULLS_MEET);
-        }
-        are_parted
+        over.pairing
+            .parted_by_one(places, direction, &sweep, limits, scratch)
     }
 
     pub fn carried(&self) -> (&Carried<'a, usize>, &Carried<'a, Option<usize>>) {

@@ -1,6 +1,7 @@
-//! What is known of body pairs through one piece, made when it is first asked for.
+//! What is known of body pairs: through one piece, made when it is first asked for, and through all of a proof.
 
 use super::crowd::CrowdOver;
+use super::hulls_tried::HullsTried;
 use super::moving_pair::MovingPair;
 use super::over_piece::{PairOver, TwistLists};
 use super::piece::Piece;
@@ -12,6 +13,8 @@ pub(super) struct OverPairs<'a, L: TwistLists> {
     /// The place of each pair in `made`, and the number of the piece for which it was made.
     places: Vec<(u32, u32)>,
     piece: u32,
+    /// The hulls of each pair.
+    hulls: Vec<HullsTried>,
     /// The crowd looked at last, in this piece.
     pub crowd: Option<(u32, CrowdOver<L>)>,
 }
@@ -20,6 +23,7 @@ pub(super) struct OverPairs<'a, L: TwistLists> {
 pub(super) struct OverPairsMemory<L: TwistLists + 'static> {
     made: Vec<PairOver<'static, L>>,
     places: Vec<(u32, u32)>,
+    hulls: Vec<HullsTried>,
 }
 
 impl<L: TwistLists> Default for OverPairsMemory<L> {
@@ -27,6 +31,7 @@ impl<L: TwistLists> Default for OverPairsMemory<L> {
         Self {
             made: Vec::new(),
             places: Vec::new(),
+            hulls: Vec::new(),
         }
     }
 }
@@ -34,14 +39,21 @@ impl<L: TwistLists> Default for OverPairsMemory<L> {
 impl<'a, L: TwistLists> OverPairs<'a, L> {
     /// Of so many pairs, in memory that is used again.
     pub fn new(count: usize, memory: OverPairsMemory<L>) -> Self {
-        let OverPairsMemory { made, mut places } = memory;
+        let OverPairsMemory {
+            made,
+            mut places,
+            mut hulls,
+        } = memory;
         places.clear();
         places.resize(count, (0, 0));
+        hulls.clear();
+        hulls.resize(count, HullsTried::default());
         Self {
             crowd: None,
             made: emptied(made),
             places,
             piece: 0,
+            hulls,
         }
     }
 
@@ -49,6 +61,7 @@ impl<'a, L: TwistLists> OverPairs<'a, L> {
         OverPairsMemory {
             made: emptied(self.made),
             places: self.places,
+            hulls: self.hulls,
         }
     }
 
@@ -56,6 +69,11 @@ impl<'a, L: TwistLists> OverPairs<'a, L> {
         self.piece += 1;
         self.made.clear();
         self.crowd = None;
+    }
+
+    /// The hulls of a pair.
+    pub fn hulls(&mut self, number: usize) -> &mut HullsTried {
+        &mut self.hulls[number]
     }
 
     /// Of how many pairs something was asked in this piece.
