@@ -83,6 +83,27 @@ impl<I: Instructions> PoseColumns<I> {
     }
 }
 
+impl Pose {
+    /// The product self * child: the pose of the child's child in this pose's parent frame.
+    #[inline(always)]
+    pub fn compose(&self, child: &Pose) -> Pose {
+        PoseColumns::of(Plain, self).compose(child).pose()
+    }
+
+    /// The pose after a turn by `angle` radians about a unit axis of its own frame.
+    pub fn turned_about(&self, axis: &Vec3, angle: f64) -> Pose {
+        let columns = PoseColumns::of(Plain, self);
+        columns.turned_by(axis, Turn::by(angle)).pose()
+    }
+
+    /// The pose after a shift along a unit axis of its own frame.
+    #[inline(always)]
+    pub fn shifted_along(&self, axis: &Vec3, length: f64) -> Pose {
+        let columns = PoseColumns::of(Plain, self);
+        columns.shifted_along(axis, length).pose()
+    }
+}
+
 /// matrix * axes, a column at a time.
 #[inline(always)]
 pub fn turned_axes(matrix: &Mat3, axes: &Mat3) -> Mat3 {

@@ -1,10 +1,9 @@
-//! A rigid pose: read, checked, composed and inverted.
+//! A rigid pose: read, checked and inverted.
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
-use super::columns::PoseColumns;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
-use crate::lanes::{Doubles, F64x4, Instructions, Plain, Work, with_widest};
+use crate::lanes::{Doubles, F64x4, Instructions, Work, with_widest};
 use crate::tolerance;
 use crate::turn::Turn;
 
@@ -145,25 +144,6 @@ impl Pose {
     #[inline]
     pub fn transform_point(&self, point: &Vec3) -> Vec3 {
         turned(&self.rotation, point) + self.translation
-    }
-
-    /// The product self * child: the pose of the child's child in this pose's parent frame.
-    #[inline(always)]
-    pub fn compose(&self, child: &Pose) -> Pose {
-        PoseColumns::of(Plain, self).compose(child).pose()
-    }
-
-    /// The pose after a turn by `angle` radians about a unit axis of its own frame.
-    pub fn turned_about(&self, axis: &Vec3, angle: f64) -> Pose {
-        let columns = PoseColumns::of(Plain, self);
-        columns.turned_by(axis, Turn::by(angle)).pose()
-    }
-
-    /// The pose after a shift along a unit axis of its own frame.
-    #[inline(always)]
-    pub fn shifted_along(&self, axis: &Vec3, length: f64) -> Pose {
-        let columns = PoseColumns::of(Plain, self);
-        columns.shifted_along(axis, length).pose()
     }
 
     /// The pose of the parent in the child frame.
