@@ -323,8 +323,9 @@ impl QueryContext {
         recent: Option<Recent>,
     ) -> Result<NearestHit<'t, 'a>> {
         // Warm start: the last nearest primitive pair of each two bodies bounds the distance before any tree is traversed. Where only what
-        // meets is asked for, no bound is needed.
-        let starts_warm = targets.len() > 1 && visitor.limit() > 0.0;
+        // meets is asked for, no bound is needed; nor where all walks are short, which find what is nearest as soon.
+        let are_walks_short = targets.iter().all(Target::is_walked_at_once);
+        let starts_warm = targets.len() > 1 && visitor.limit() > 0.0 && !are_walks_short;
         let recent_rank = recent.and_then(|recent| {
             let target = recent.target_among(targets)?;
             recent.show(target.rank, &mut visitor);
@@ -366,7 +367,10 @@ impl QueryContext {
                 if pairing.only_places().is_some() && shown.contains(&target.rank) {
                     continue;
                 }
-                let first = self.remembered(&target.key);
+                let first = match are_walks_short {
+                    true => None,
+                    false => self.remembered(&target.key),
+                };
                 let _ = traverse(&pairing, first, &mut self.scratch, &mut visitor);
             }
         }

@@ -130,6 +130,13 @@ impl<'a> Target<'a> {
         self.options.margin + self.stated_deviation()
     }
 
+    /// Whether the trees of both bodies are a node each, or a leaf: a walk is then no dearer than the primitives that it comes to.
+    #[inline(always)]
+    pub fn is_walked_at_once(&self) -> bool {
+        let is_small = |(body, _): &Placement| body.packed().nodes().len() <= 2;
+        self.sides.iter().all(is_small)
+    }
+
     /// Both bodies in one frame. Made on demand: most targets turn out to be too far.
     #[inline(always)]
     pub fn pairing(&self) -> Pairing<'a> {
