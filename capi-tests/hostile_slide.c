@@ -224,6 +224,12 @@ static void list_arguments(const cstk_witness_list *list) {
                   "out");
     CHECK_REFUSED(out, cstk_spring_step(list, nv, 0.1, out.step, NULL), CSTK_ERROR_NULL_ARGUMENT,
                   "found");
+    // More entries than there are addresses, where an empty list does not say how many.
+    const cstk_witness_list none = {0};
+    CHECK_REFUSED(out, cstk_spring_step(&none, SIZE_MAX, 0.1, out.step, &out.found),
+                  CSTK_ERROR_WRONG_SIZE, "out");
+    CHECK_REFUSED(out, cstk_slide_step(&none, asked, SIZE_MAX, 0.1, false, out.step, &out.found),
+                  CSTK_ERROR_WRONG_SIZE, "out");
     const double distances[] = {NAN, INFINITY, -INFINITY, -1e-300, -1};
     for (int i = 0; i < 5; ++i) {
         const cstk_status status = i < 3 ? CSTK_ERROR_NOT_FINITE : CSTK_ERROR_INVALID_ARGUMENT;

@@ -55,14 +55,20 @@ pub unsafe fn slice<'a, T>(
     if !items.is_aligned() {
         return Err(misaligned(argument));
     }
+    require_addressable::<T>(count, argument)?;
+    // SAFETY: not null, aligned, and the caller states that it holds `count` items.
+    Ok(unsafe { std::slice::from_raw_parts(items, count) })
+}
+
+/// Refuses more items than memory has addresses for.
+fn require_addressable<T>(count: usize, argument: &str) -> Result<(), Failure> {
     if count > isize::MAX as usize / size_of::<T>().max(1) {
         return Err(Failure::new(
             cstk_status::CSTK_ERROR_WRONG_SIZE,
             format!("{argument} cannot have {count} entries"),
         ));
     }
-    // SAFETY: not null, aligned, and the caller states that it holds `count` items.
-    Ok(unsafe { std::slice::from_raw_parts(items, count) })
+    Ok(())
 }
 
 /// Collects items whose count comes from the caller. If there is not enough memory, the call is refused.
@@ -228,6 +234,7 @@ impl<T: Copy> OutputSlice<T> {
         if count > 0 {
             Output::checked(items, argument)?;
         }
+        require_addressable::<T>(count, argument)?;
         Ok(Self { items, count })
     }
 
@@ -237,6 +244,14 @@ impl<T: Copy> OutputSlice<T> {
         if count > 0 {
             // SAFETY: checked at construction; the caller states that `count` items are writable.
             unsafe { std::ptr::copy_nonoverlapping(values.as_ptr(), self.items, count) }
+        }
+    }
+
+    /// Writes one value everywhere.
+    pub fn fill(self, value: T) {
+        for i in 0..self.count {
+            // SAFETY: checked at construction; the caller states that `count` items are writable.
+            unsafe { self.items.add(i).write(value) }
         }
     }
 }

@@ -163,18 +163,20 @@ impl<I: Instructions> Outline<'_, I> {
         best
     }
 
-    /// Whether the foot of a point lies inside the polygon.
+    /// Whether the foot of a point lies inside the polygon. Nothing lies inside of one whose corners are rounded onto a line or a point.
     #[inline(always)]
     pub fn is_under(&self, point: &Vec3) -> bool {
         let mut least = self.splat(0.0);
+        let mut most = self.splat(0.0);
         let normal = Doubles::point(self.lanes, &self.normal.into());
         let point = Doubles::point(self.lanes, &(*point).into());
         for block in 0..self.blocks.len() {
             let (starts, along) = self.edges(block);
             let inwards = cross64(&normal, &along);
-            least = least.min(dot64(&sub64(&point, &starts), &inwards));
+            let areas = dot64(&sub64(&point, &starts), &inwards);
+            (least, most) = (least.min(areas), most.max(areas));
         }
-        least.least() >= 0.0
+        least.least() >= 0.0 && most.greatest() > 0.0
     }
 
     /// For each point the least signed area that it spans with an edge of the polygon; negative outside.

@@ -247,12 +247,16 @@ impl<'a> PlacedPrimitive<'a> {
         let normal = &self.normal(face);
         let ring = &self.shape.faces[face].vertices;
         let height = normal.dot(&(point - self.vertex(ring[0])));
+        let mut has_area = false;
         let inside = (0..ring.len()).all(|i| {
             let a = self.vertex(ring[i]);
             let b = self.vertex(ring[(i + 1) % ring.len()]);
-            is_inside((b - a).cross(&(point - a)).dot(normal))
+            let side = (b - a).cross(&(point - a)).dot(normal);
+            has_area |= side > 0.0;
+            is_inside(side)
         });
-        (height, inside)
+        // Nothing is over a face whose corners are rounded onto a line or a point.
+        (height, inside && has_area)
     }
 
     /// How far a point of a face's plane is from the lines of the face's edges, at least; negative outside.

@@ -172,8 +172,9 @@ fn nearest_corner(
             let inside = polygon.innermost(&other.block(block)).array();
             for lane in 0..4 {
                 let corner = 4 * block + lane;
-                let height = polygon.height(&other.corner(corner)).abs();
-                if inside.0[lane] >= 0.0 && height < distance {
+                let point = other.corner(corner);
+                let height = polygon.height(&point).abs();
+                if inside.0[lane] >= 0.0 && height < distance && polygon.is_under(&point) {
                     distance = height;
                     found = if is_first {
                         NearestFeatures::FirstCorner(corner)

@@ -192,8 +192,7 @@ pub unsafe extern "C" fn cstk_slide_step(
         require_coordinates(step, "step entry")?;
         check_desired(desired_distance)?;
         let left = slide_step(step, &approaches, &[], desired_distance, normalize);
-        found.write(left.is_some());
-        out.write(&left.unwrap_or_else(|| vec![0.0; nv]));
+        write_found(left, out, found);
         Ok(())
     })
 }
@@ -216,10 +215,18 @@ pub unsafe extern "C" fn cstk_spring_step(
         let approaches = unsafe { approaches(list, nv)? };
         check_desired(desired_distance)?;
         let adjustment = spring_step(&approaches, &[], desired_distance);
-        found.write(adjustment.is_some());
-        out.write(&adjustment.unwrap_or_else(|| vec![0.0; nv]));
+        write_found(adjustment, out, found);
         Ok(())
     })
+}
+
+/// Writes a step, or zeros where there is none.
+fn write_found(step: Option<Vec<f64>>, out: OutputSlice<f64>, found: Output<bool>) {
+    found.write(step.is_some());
+    match step {
+        Some(step) => out.write(&step),
+        None => out.fill(0.0),
+    }
 }
 
 fn check_desired(desired: f64) -> Result<(), Failure> {
