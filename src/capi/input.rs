@@ -60,8 +60,8 @@ pub unsafe fn slice<'a, T>(
     Ok(unsafe { std::slice::from_raw_parts(items, count) })
 }
 
-/// Refuses more items than memory has addresses for.
-fn require_addressable<T>(count: usize, argument: &str) -> Result<(), Failure> {
+/// Refuses more items than memory has addresses for. Room for an answer may be more: it is not all written to.
+pub fn require_addressable<T>(count: usize, argument: &str) -> Result<(), Failure> {
     if count > isize::MAX as usize / size_of::<T>().max(1) {
         return Err(Failure::new(
             cstk_status::CSTK_ERROR_WRONG_SIZE,
@@ -234,7 +234,6 @@ impl<T: Copy> OutputSlice<T> {
         if count > 0 {
             Output::checked(items, argument)?;
         }
-        require_addressable::<T>(count, argument)?;
         Ok(Self { items, count })
     }
 

@@ -4,7 +4,9 @@ use crate::capi::at_configuration::answers::cstk_witness_list;
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::cobject::cobject::cstk_cobject;
 use crate::capi::handle;
-use crate::capi::input::{OptionsStruct, Output, OutputSlice, options, slice, write_defaults};
+use crate::capi::input::{
+    OptionsStruct, Output, OutputSlice, options, require_addressable, slice, write_defaults,
+};
 use crate::capi::query::{cstk_query, with_query};
 use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
@@ -186,6 +188,7 @@ pub unsafe extern "C" fn cstk_slide_step(
 ) -> cstk_status {
     guard(|| {
         let out = OutputSlice::checked(out, nv, "out")?;
+        require_addressable::<f64>(nv, "out")?;
         let found = Output::checked(found, "found")?;
         // SAFETY: checked for NULL; the caller states the lengths.
         let (approaches, step) = unsafe { (approaches(list, nv)?, slice(step, nv, "step")?) };
@@ -210,6 +213,7 @@ pub unsafe extern "C" fn cstk_spring_step(
 ) -> cstk_status {
     guard(|| {
         let out = OutputSlice::checked(out, nv, "out")?;
+        require_addressable::<f64>(nv, "out")?;
         let found = Output::checked(found, "found")?;
         // SAFETY: checked for NULL; the caller states the lengths.
         let approaches = unsafe { approaches(list, nv)? };
