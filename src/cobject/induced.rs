@@ -94,15 +94,13 @@ impl BodyPairs {
         left_out: LeftOut,
     ) -> Result<Self> {
         let links: Vec<usize> = if links.is_empty() {
-            let all = 0..space.link_count();
-            let has_body = |link: usize| space.link(link).is_some_and(|l| l.body.is_some());
-            if !all.clone().any(has_body) {
+            if space.bodies().count() == 0 {
                 return Err(Error::new(
                     ErrorKind::Empty,
                     "no link of the space has a body",
                 ));
             }
-            all.collect()
+            (0..space.link_count()).collect()
         } else {
             for &link in links {
                 require_link(space, link)?;
@@ -116,8 +114,8 @@ impl BodyPairs {
             ids.sort_unstable();
             ids.dedup();
         }
-        let mut bodies = IndexSet::new(space.carriers().len());
-        for number in links.iter().filter_map(|&link| space.body_number(link)) {
+        let mut bodies = IndexSet::new(space.bodies().count());
+        for number in links.iter().filter_map(|&link| space.bodies().number(link)) {
             bodies.insert(number);
         }
         Ok(Self::Objects {
@@ -145,10 +143,11 @@ impl BodyPairs {
         let mut seen = HashSet::new();
         let is_new = |&&[r, s]: &&[usize; 2]| seen.insert([r.min(s), r.max(s)]);
         let pairs: Vec<[usize; 2]> = pairs.iter().filter(is_new).copied().collect();
-        let numbers = |&[r, s]: &[usize; 2]| Some([space.body_number(r)?, space.body_number(s)?]);
+        let numbers =
+            |&[r, s]: &[usize; 2]| Some([space.bodies().number(r)?, space.bodies().number(s)?]);
         let numbered = pairs.iter().filter_map(numbers);
         Ok(Self::Links {
-            rows: LinkRows::new(space.carriers().len(), numbered),
+            rows: LinkRows::new(space.bodies().count(), numbered),
             clear: None,
             pairs,
         })

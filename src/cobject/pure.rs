@@ -128,9 +128,8 @@ impl PureShape {
         }
         let scaled = normal / largest;
         let length = scaled.norm();
-        let has_body = |&link: &usize| space.link(link).is_some_and(|link| link.body.is_some());
         let mut numbers: Vec<usize> = match links {
-            [] => (0..space.link_count()).filter(has_body).collect(),
+            [] => space.bodies().carriers().to_vec(),
             _ => links.to_vec(),
         };
         check_links(space, &numbers)?;

@@ -172,7 +172,7 @@ impl<'a> Scene<'a> {
         };
         candidates.count(term.pairs.len());
         let last_link = candidates.last_link();
-        let links = self.space().carriers();
+        let links = self.space().bodies().carriers();
         boxes.visit_near(term.rows, self.bounds(), cutoff, |pair, bounds| {
             let [r, s] = pair.map(|body| links[body]);
             if r <= last_link

@@ -50,7 +50,7 @@ impl Scene<'_> {
             snapshot,
         };
         let space = self.space();
-        let own = links.iter().filter_map(|&link| space.body_number(link));
+        let own = links.iter().filter_map(|&link| space.bodies().number(link));
         for body in own.chain(self.held_bodies_of(links, environment.serial())) {
             let (r, (placement, _)) = (self.r_side(body), self.r_body(body));
             let chosen = snapshot.objects().filter(|o| objects.contains(o.id));

@@ -171,8 +171,8 @@ impl QueryContext {
 
 /// All pairs of links with bodies, with those marked that are ruled out or adjacent.
 fn structure(space: &Space) -> Result<Vec<LinkPair>> {
-    let has_body = |&link: &usize| space.link(link).is_some_and(|l| l.body.is_some());
-    let links: Vec<usize> = (0..space.link_count()).filter(has_body).collect();
+    let links = space.bodies().carriers();
+    let has_body = |&link: &usize| space.body(link).is_some();
     if links.is_empty() {
         return Err(Error::new(
             ErrorKind::Empty,

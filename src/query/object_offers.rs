@@ -104,7 +104,7 @@ impl<'s> ObjectOffers<'_, 's, '_, '_> {
     fn offer_attached(&mut self, bodies: &IndexSet, environment: u64) {
         let objects = self.term.objects;
         let held = self.scene.held_of(environment);
-        let first_held = self.scene.space().carriers().len();
+        let first_held = self.scene.space().bodies().count();
         for (i, held) in held.filter(|(_, held)| objects.contains(held.object.id)) {
             let other = &self.scene.bounds().get(first_held + i);
             for body in bodies.iter() {
@@ -149,7 +149,7 @@ impl<'a> Scene<'a> {
     ) {
         let environment = term.objects.environment().serial();
         let last_link = candidates.last_link();
-        let carriers = self.space().carriers();
+        let carriers = self.space().bodies().carriers();
         let up_to_last = carriers.partition_point(|&link| link <= last_link);
         bodies.clear(self.body_count());
         bodies.extend_below(term.bodies, up_to_last);
@@ -176,7 +176,7 @@ impl<'a> Scene<'a> {
         links: &'s [usize],
         environment: u64,
     ) -> impl Iterator<Item = usize> + 's {
-        let first_held = self.space().carriers().len();
+        let first_held = self.space().bodies().count();
         let held = self.held_of(environment);
         let held = held.filter(|(_, held)| links.contains(&held.attachment.link));
         held.map(move |(i, _)| first_held + i)
@@ -185,10 +185,10 @@ impl<'a> Scene<'a> {
     /// Who a body is, by its number.
     #[inline(always)]
     pub(super) fn r_side(&self, body: usize) -> RSide {
-        match self.space().carriers().get(body) {
+        match self.space().bodies().carriers().get(body) {
             Some(&link) => RSide { link, attached: 0 },
             None => {
-                let held = &self.held()[body - self.space().carriers().len()];
+                let held = &self.held()[body - self.space().bodies().count()];
                 RSide {
                     link: held.attachment.link,
                     attached: held.object.id,
@@ -200,13 +200,13 @@ impl<'a> Scene<'a> {
     /// A body by its number, at its pose, with its user data.
     #[inline(always)]
     pub(super) fn r_body(&self, body: usize) -> (Placement<'_>, usize) {
-        match self.space().carriers().get(body) {
+        match self.space().bodies().carriers().get(body) {
             Some(&link) => {
                 let placement = self.link(link).expect("carriers have bodies");
                 (placement, placement.0.data())
             }
             None => {
-                let held = &self.held()[body - self.space().carriers().len()];
+                let held = &self.held()[body - self.space().bodies().count()];
                 ((&*held.object.body, &held.pose), held.object.data())
             }
         }

@@ -168,13 +168,13 @@ impl<'a> Scene<'a> {
 
     /// The bounds of a link's body, if it has one.
     pub fn bounds_of_link(&self, link: usize) -> Option<Bounds> {
-        let number = self.space.body_number(link)?;
+        let number = self.space.bodies().number(link)?;
         Some(self.bounds().get(number))
     }
 
     /// How many bodies move with the robot.
     pub fn body_count(&self) -> usize {
-        self.space.carriers().len() + self.held.len()
+        self.space.bodies().count() + self.held.len()
     }
 
     /// The s-objects attached to links.
@@ -214,7 +214,12 @@ impl Work for BoundAll<'_, '_> {
     fn run<I: Instructions>(self, lanes: I) {
         let Self { scene, bounds } = self;
         let space = scene.space;
-        bounds.carry(lanes, space.own_bounds(), space.carriers(), scene.poses());
+        bounds.carry(
+            lanes,
+            space.bodies().own_bounds(),
+            space.bodies().carriers(),
+            scene.poses(),
+        );
         for held in &scene.held {
             bounds.push(&Bounds::of(lanes, &held.object.body, &held.pose));
         }

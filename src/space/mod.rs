@@ -1,6 +1,7 @@
 //! Spaces: the coordinates of one or more robots, their topology and limits, and the world box (§4.4).
 
 mod limits;
+mod link_bodies;
 mod rigid_step;
 mod sampling;
 #[allow(clippy::module_inception)]

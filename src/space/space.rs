@@ -4,10 +4,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::WorldBox;
+use super::link_bodies::LinkBodies;
 use crate::body::Body;
-use crate::body_bounds::{Bounds, BoundsByEight};
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
-use crate::lanes::Plain;
 use crate::pose::{Pose, Vec3};
 use crate::robot::{
     Block, Column, Coordinate, CoordinateCourses, Link, LinkMotions, Robot, RobotState, Velocity,
@@ -33,13 +32,7 @@ pub struct Space {
     robots: Vec<Arc<Robot>>,
     offsets: Vec<Offset>,
     links: usize,
-    /// The body of each link, if it has one.
-    bodies: Vec<Option<Arc<Body>>>,
-    carriers: Vec<usize>,
-    /// The place of each link among them.
-    body_numbers: Vec<Option<u32>>,
-    /// See [`Space::own_bounds`].
-    own_bounds: BoundsByEight,
+    bodies: LinkBodies,
     nv: usize,
     coordinates: Vec<Coordinate>,
     blocks: Vec<Block>,
@@ -109,24 +102,12 @@ impl Space {
             }
         }
         world.check()?;
-        let carriers: Vec<usize> = (0..links).filter(|&link| bodies[link].is_some()).collect();
-        let mut body_numbers = vec![None; links];
-        for (number, &link) in (0..).zip(&carriers) {
-            body_numbers[link] = Some(number);
-        }
-        let mut own_bounds = BoundsByEight::default();
-        for body in bodies.iter().flatten() {
-            own_bounds.push(&Bounds::of(Plain, body, &Pose::IDENTITY));
-        }
         Ok(Self {
             serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
             robots,
             offsets,
             links,
-            bodies,
-            carriers,
-            body_numbers,
-            own_bounds,
+            bodies: LinkBodies::new(bodies),
             nv,
             coordinates,
             blocks,
@@ -213,24 +194,12 @@ impl Space {
     /// The body of a link, if it has one.
     #[inline]
     pub fn body(&self, link: usize) -> Option<&Body> {
-        self.bodies.get(link)?.as_deref()
+        self.bodies.get(link)
     }
 
-    /// The links with bodies, in order. A body's number is its place here.
-    pub(crate) fn carriers(&self) -> &[usize] {
-        &self.carriers
-    }
-
-    /// The number of a link's body, if it has one.
-    #[inline]
-    pub(crate) fn body_number(&self, link: usize) -> Option<usize> {
-        let number = *self.body_numbers.get(link)?;
-        number.map(|number| number as usize)
-    }
-
-    /// The bounds of the bodies, by their numbers, in the frames of their links.
-    pub(crate) fn own_bounds(&self) -> &BoundsByEight {
-        &self.own_bounds
+    /// The bodies of all links.
+    pub(crate) fn bodies(&self) -> &LinkBodies {
+        &self.bodies
     }
 
     /// Whether the SRDF file of a robot rules out this pair of its links for self-collision.
@@ -245,7 +214,7 @@ impl Space {
 
     /// All pairs of links with bodies but those that an SRDF file rules out, in order of their numbers.
     pub fn enabled_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
-        let links = &self.carriers;
+        let links = self.bodies.carriers();
         let count = links.len();
         let pairs = (0..count).flat_map(move |i| (i + 1..count).map(move |k| [i, k]));
         let pairs = pairs.map(|pair| pair.map(|i| links[i]));
