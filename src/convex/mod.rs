@@ -34,7 +34,7 @@ mod polytope_distance;
 mod polytope_penetration;
 mod smooth_distance;
 mod surface_part;
-mod swept_gap;
+mod sweep;
 
 pub use self::core::Core;
 pub use beside_plain_solid::BesidePlainSolid;
@@ -51,4 +51,4 @@ pub use placed::{PlacedBuffer, PlacedPrimitive, Precision};
 pub use polygon_distance::{NearestFeatures, PolygonDistance, polygon_closest, polygon_distance};
 pub use polytope_distance::{DistanceScratch, cuboid};
 pub use polytope_penetration::{HalfSpace, Penetration, parting_half_spaces};
-pub use swept_gap::{Extension, Sweep, SweepTwist, swept_gap};
+pub use sweep::{Extension, Sweep, SweepTwist, stays_apart_along};

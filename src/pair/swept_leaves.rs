@@ -3,7 +3,7 @@
 use super::Scratch;
 use super::pair_distance::{PairDistance, PrimitiveScratch};
 use super::pairing::{EMPTY, Pairing};
-use crate::convex::{PlacedPrimitive, Sweep, first_contact, swept_gap};
+use crate::convex::{PlacedPrimitive, Sweep, first_contact, stays_apart_along};
 use crate::gjk::{DistanceLimits, gjk};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::{Vec3, turned, turned_back};
@@ -177,8 +177,8 @@ impl Pairing<'_> {
         }
         let [a, b] = self.placed(places, &mut scratch.buffer);
         let near = DistanceLimits {
+            cutoff: needed + limits.displacement,
             enough: HULLS_NEAR * self.precision.size,
-            ..DistanceLimits::EXACT
         };
         let found = gjk(&a, &b, start, near);
         let in_b = turned_back(&self.relative.rotation, &found.direction);
@@ -245,7 +245,7 @@ impl Pairing<'_> {
             return false;
         }
         let direction = direction.normalize();
-        swept_gap(&a, &b, &direction, sweep) > needed
+        stays_apart_along(&a, &b, &direction, sweep, needed)
     }
 }
 

@@ -1,4 +1,4 @@
-//! The gap of two primitives along a direction over an interval of time, or over a box of configurations.
+//! Whether a direction parts two primitives over an interval of time, or over a box of configurations.
 
 use super::core::Core;
 use super::placed::PlacedPrimitive;
@@ -35,40 +35,54 @@ pub struct Sweep<'a> {
     pub bends: [f64; 2],
 }
 
-/// A lower bound of the gap through the interval along a unit direction from B to A: the better of those along the direction
-/// as it moves with A, and as it rests with B. Of A's point a the place along n at the end is n . a + n . (v + w x a), that is
-/// (n + n x w) . a + n . v. In between it is linear but for the bend, which grows with the square of the time: the least is at an end
-/// of the interval.
-pub fn swept_gap(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &Vec3, sweep: &Sweep) -> f64 {
+/// Whether the gap through the interval along a unit direction from B to A is surely more than `needed`: along the direction as it rests
+/// with B, or as it moves with A. Of A's point a the place along n at the end is n . a + n . (v + w x a), that is (n + n x w) . a + n . v.
+/// In between it is linear but for the bend, which grows with the square of the time: the least is at an end of the interval.
+pub fn stays_apart_along(
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
+    direction: &Vec3,
+    sweep: &Sweep,
+    needed: f64,
+) -> bool {
     let &[twist] = sweep.twists else {
-        return gap_over_box(a, b, direction, sweep);
+        return stays_apart_over_box(a, b, direction, sweep, needed);
     };
     let turned = direction.cross(&twist.angular);
     let shift = direction.dot(&twist.linear);
+    let of_b = least_along(b, &-direction);
+    let [with_a, with_b] = sweep.bends;
     if sweep.extension == Extension::OneWay {
-        let [of_a, of_b] = [least_along(a, direction), least_along(b, &-direction)];
-        let rests_with_b = least_along(a, &(direction + turned)) + of_b - sweep.bends[1];
-        let moves_with_a = of_a + least_along(b, &(turned - direction)) - sweep.bends[0];
-        return (of_a + of_b).min(rests_with_b.max(moves_with_a) + shift);
+        let of_a = least_along(a, direction);
+        return of_a + of_b > needed
+            && (least_along(a, &(direction + turned)) + of_b - with_b + shift > needed
+                || of_a + least_along(b, &(turned - direction)) - with_a + shift > needed);
     }
     let [ahead, behind] = [direction + turned, direction - turned];
-    let rests_with_b = (least_along(a, &ahead) + shift).min(least_along(a, &behind) - shift)
-        + least_along(b, &-direction)
-        - sweep.bends[1];
-    // B's points b move by -(v + w x b).
-    let moves_with_a = least_along(a, direction)
-        + (least_along(b, &-behind) + shift).min(least_along(b, &-ahead) - shift)
-        - sweep.bends[0];
-    rests_with_b.max(moves_with_a)
+    let rests_with_b =
+        (least_along(a, &ahead) + shift).min(least_along(a, &behind) - shift) + of_b - with_b;
+    // Only where that leaves it open are three more support points looked for. B's points b move by -(v + w x b).
+    rests_with_b > needed
+        || least_along(a, direction)
+            + (least_along(b, &-behind) + shift).min(least_along(b, &-ahead) - shift)
+            - with_a
+            > needed
 }
 
 /// The same for any number of twists.
-fn gap_over_box(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &Vec3, sweep: &Sweep) -> f64 {
+fn stays_apart_over_box(
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
+    direction: &Vec3,
+    sweep: &Sweep,
+    needed: f64,
+) -> bool {
+    let [with_a, with_b] = sweep.bends;
     let rests_with_b =
-        least_moved(a, direction, 1.0, sweep.twists) + least_along(b, &-direction) - sweep.bends[1];
-    let moves_with_a =
-        least_along(a, direction) + least_moved(b, direction, -1.0, sweep.twists) - sweep.bends[0];
-    rests_with_b.max(moves_with_a)
+        least_moved(a, direction, 1.0, sweep.twists) + least_along(b, &-direction) - with_b;
+    rests_with_b > needed
+        || least_along(a, direction) + least_moved(b, direction, -1.0, sweep.twists) - with_a
+            > needed
 }
 
 /// The least place along `sign * direction` that any sum of displacements gives a point of a primitive. Of a point x it is
