@@ -2,9 +2,10 @@
 //! It reaches the last digit in a few steps, where GJK alone halves the error in each.
 
 use super::core::Core;
-use super::surface_part::{PartSupport, SurfacePart, perpendicular_to};
+use super::surface_part::{PartSupport, SurfacePart};
 use crate::gjk::{Names, Nearby, Support};
 use crate::pose::Vec3;
+use crate::primitive::plane_axes;
 
 /// At most 10 Newton steps; then GJK goes on by itself.
 const MAX_STEPS: usize = 10;
@@ -193,7 +194,7 @@ impl<'a> NearestParts<'a> {
             {
                 return Some(found);
             }
-            let (x, y) = perpendicular_to(&direction);
+            let (x, y) = plane_axes(&direction);
             let (by_x, by_y) = (
                 self.bend(&supports, &x, [0.0; 2]),
                 self.bend(&supports, &y, [0.0; 2]),

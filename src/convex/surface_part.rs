@@ -4,7 +4,7 @@ use super::closest::Segment;
 use super::core::Core;
 use super::polytope_distance::cuboid;
 use crate::pose::{Mat3, Vec3, turned, turned_back};
-use crate::primitive::{Feature, FeatureKind, HIGH_END, LOW_END, SmoothKind};
+use crate::primitive::{Feature, FeatureKind, HIGH_END, LOW_END, SmoothKind, plane_axes};
 
 /// A part of a surface on which the support point stays while the direction turns a little; in the common frame.
 #[derive(Clone, Copy, Debug)]
@@ -465,19 +465,7 @@ fn across(direction: &Vec3, axis: &Vec3) -> (Vec3, f64) {
     let length = away.norm();
     // What is left of rounding alone may point anywhere, along the axis too.
     if length <= 0.5 * once.norm() || length == 0.0 {
-        return (perpendicular_to(axis).0, 0.0);
+        return (plane_axes(axis).0, 0.0);
     }
     (away / length, length)
-}
-
-/// Two unit vectors perpendicular to a third and to each other.
-#[inline(always)]
-pub fn perpendicular_to(direction: &Vec3) -> (Vec3, Vec3) {
-    let other = if direction.x.abs() < 0.6 {
-        Vec3::x()
-    } else {
-        Vec3::y()
-    };
-    let x = direction.cross(&other).normalize();
-    (x, direction.cross(&x))
 }

@@ -1,23 +1,17 @@
 //! The proof that a motion keeps out of a set: intervals of time are halved until bounds over the interval part all boxes and
 //! primitives, and all pure sets.
 
-use std::sync::Arc;
-
-use super::crowd::Crowd;
 use super::first_contact::MeetingLeaves;
 use super::front::{Front, FrontPart};
 use super::kinematics::Kinematics;
 use super::look::{LeafLook, Look};
-use super::moving_pair::{Interval, MovingPair};
-use super::moving_pure::{Extent, Moment, MovingPure};
+use super::moving_pair::Interval;
+use super::moving_set::{Middle, MovingSet};
 use super::over_pairs::{OverPairs, OverPairsMemory};
 use super::over_piece::OneTwist;
 use super::pair_look::PairLook;
-use super::piece::Piece;
-use super::set_tree::{SetTree, SetVerdict, verdict_over};
-use super::span::Span;
-use super::way::Way;
-use crate::cobject::ConvexSets;
+use super::set_tree::SetVerdict;
+use super::undecided::Undecided;
 use crate::error::Result;
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::query::QueryContext;
@@ -25,10 +19,6 @@ use crate::query::QueryContext;
 /// Intervals no longer than this, a part of the motion, are not halved: it is below the least tolerance, 1e-12, so that what is near is
 /// told over no longer time than was asked for.
 const SHORTEST_INTERVAL: f64 = 1.0 / (1u64 << 40) as f64;
-
-/// The work on a pair that goes on in the halves of an interval, times the interval's length: see `PairLook`. By the motion benchmark
-/// from .5 to 16 within a tenth of each other on arms; without a limit hits of the UR10 take three times as long.
-const WORK_PER_LENGTH: f64 = 1.0;
 
 /// The start is asked for by itself where an interval from it on, no longer than this, is undecided: most motions that planners ask for
 /// begin where they have been, and are proved free there at once.
@@ -55,54 +45,6 @@ pub(super) enum Proof {
     Undecided([f64; 2]),
     /// The work ended: all before this time is free.
     Exceeded(f64),
-}
-
-/// A leaf of the set tree on the motion.
-pub(super) enum MovingLeaf {
-    /// An induced set, whose pairs have the leaf's number.
-    Pairs {
-        /// The leaf stands for the complement.
-        complement: bool,
-    },
-    Pure(MovingPure),
-    /// Where the caller knows the class of another part.
-    Known {
-        sets: Arc<ConvexSets>,
-        /// The leaf stands for the complement.
-        complement: bool,
-    },
-    /// Every configuration counts as in it.
-    Everything,
-}
-
-/// A set on a motion.
-pub(super) struct MovingSet<'a> {
-    /// `None` for two bodies without a robot.
-    pub way: Option<&'a Way<'a>>,
-    pub tree: &'a SetTree<'a>,
-    /// In the order of the tree's leaves.
-    pub leaves: Vec<MovingLeaf>,
-    /// In the order of their leaves.
-    pub pairs: Vec<MovingPair<'a>>,
-    /// In the order of their pairs.
-    pub crowds: Vec<Crowd>,
-}
-
-/// The middle of a piece.
-#[derive(Clone, Copy)]
-pub(super) struct Middle<'a> {
-    /// `None` for two bodies without a robot.
-    pub way: Option<&'a Way<'a>>,
-    /// Its time, 0 in boxes of configurations.
-    pub time: f64,
-}
-
-/// An interval of time, with what is undecided in it.
-struct Undecided {
-    times: [f64; 2],
-    part: FrontPart,
-    /// Primitives nearly meet at its end.
-    ends_near_contact: bool,
 }
 
 /// Asked for a time: whether the set is certainly met there.
@@ -212,17 +154,14 @@ impl<'a> Prover<'a, '_, '_, '_> {
             part: lists.front.start(&set.pairs, &set.crowds, !is_plain),
             ends_near_contact: false,
         });
-        let mut contact: Option<f64> = None;
-        let mut is_start_asked = false;
-        // Each contact is narrowed once: primitives that touch to within rounding would else be bisected down to the shortest interval.
-        let mut narrowed: Option<(MeetingLeaves, f64)> = None;
+        let mut found = Found::default();
         while let Some(interval) = todo.pop() {
             let [start, end] = interval.times;
             if self.limits.intervals == 0 {
                 return Ok(Proof::Undecided([start, end]));
             }
             self.limits.intervals -= 1;
-            if let Some(contact) = contact {
+            if let Some(contact) = found.contact {
                 if start >= contact {
                     continue;
                 }
@@ -233,25 +172,16 @@ impl<'a> Prover<'a, '_, '_, '_> {
             if self.context.scratch.meter().is_exceeded() {
                 return Ok(Proof::Exceeded(start));
             }
-            let before = self.context.scratch.meter().done.node_pairs;
-            let Outcome { whole, left, met } = self.look_at(lanes, &interval, is_plain, lists)?;
-            // What balls or lengths decide is work too, or nothing would end the proof of a turn of many rounds.
-            let meter = self.context.scratch.meter_mut();
-            if meter.done.node_pairs == before {
-                meter.count_nodes(1);
-            }
+            let Outcome { whole, left, met } =
+                self.look_and_count(lanes, &interval, is_plain, lists)?;
             if self.context.scratch.meter().is_exceeded() {
                 return Ok(Proof::Exceeded(start));
             }
             if whole == SetVerdict::Free {
                 continue;
             }
-            let is_start_wanted = whole == SetVerdict::Meets || end <= START_ASKED_BELOW;
-            if start == 0.0 && is_start_wanted && !is_start_asked {
-                is_start_asked = true;
-                if (self.confirm)(self.context, 0.0)? {
-                    return Ok(Proof::Contact([0.0, 0.0]));
-                }
+            if found.wants_start(&interval, whole) && (self.confirm)(self.context, 0.0)? {
+                return Ok(Proof::Contact([0.0, 0.0]));
             }
             let time = interval.compared_at();
             let meets =
@@ -267,83 +197,75 @@ impl<'a> Prover<'a, '_, '_, '_> {
             if self.limits.any_contact || end - start <= self.limits.tolerance {
                 return Ok(Proof::Contact([start, time]));
             }
-            let (mut apart, mut meeting) = (time, time);
-            if let Some(met) = met.filter(|met| narrowed != Some((*met, time))) {
-                let wanted = 0.5 * self.limits.tolerance;
-                let scratch = &mut self.context.scratch;
-                let pairs = &set.pairs;
-                [apart, meeting] =
-                    met.narrowed(pairs, self.kinematics, [start, time], wanted, scratch)?;
-                narrowed = Some((met, apart));
-            }
-            contact = Some(meeting);
+            let [apart, meeting] = match met {
+                Some(met) => self.narrowed(met, [start, time], &mut found)?,
+                None => [time; 2],
+            };
+            found.contact = Some(meeting);
             interval.before(apart, meeting, left, todo);
         }
-        Ok(match contact {
+        Ok(match found.contact {
             Some(contact) => Proof::Contact([contact, contact]),
             None => Proof::Free,
         })
     }
+
+    /// Looks at an interval. What balls or lengths decide is counted as work too, or nothing would end the proof of a turn of many rounds.
+    #[inline(always)]
+    fn look_and_count<I: Instructions>(
+        &mut self,
+        lanes: I,
+        interval: &Undecided,
+        is_plain: bool,
+        lists: &mut Lists<'a, '_>,
+    ) -> Result<Outcome> {
+        let before = self.context.scratch.meter().done.node_pairs;
+        let outcome = self.look_at(lanes, interval, is_plain, lists)?;
+        let meter = self.context.scratch.meter_mut();
+        if meter.done.node_pairs == before {
+            meter.count_nodes(1);
+        }
+        Ok(outcome)
+    }
+
+    /// A time before which primitives that meet at the second of two times are apart, and one at which they meet: from the first time on
+    /// as near together as is wanted.
+    fn narrowed(
+        &mut self,
+        met: MeetingLeaves,
+        [start, time]: [f64; 2],
+        found: &mut Found,
+    ) -> Result<[f64; 2]> {
+        if found.narrowed == Some((met, time)) {
+            return Ok([time; 2]);
+        }
+        let wanted = 0.5 * self.limits.tolerance;
+        let (pairs, scratch) = (&self.set.pairs, &mut self.context.scratch);
+        let times = met.narrowed(pairs, self.kinematics, [start, time], wanted, scratch)?;
+        found.narrowed = Some((met, times[0]));
+        Ok(times)
+    }
 }
 
-impl Undecided {
-    /// The time at which bodies are compared.
-    fn compared_at(&self) -> f64 {
-        let [start, end] = self.times;
-        if self.ends_near_contact {
-            end
-        } else {
-            0.5 * (start + end)
-        }
-    }
+/// What a search has found so far.
+#[derive(Default)]
+struct Found {
+    /// The earliest time at which there is contact.
+    contact: Option<f64>,
+    is_start_asked: bool,
+    /// The primitives whose contact was narrowed last, and up to when they are apart: a contact is narrowed once. Primitives that touch to
+    /// within rounding would else be bisected down to the shortest interval.
+    narrowed: Option<(MeetingLeaves, f64)>,
+}
 
-    fn span(&self) -> Span {
-        let [start, end] = self.times;
-        if self.ends_near_contact {
-            Span::Before(end - start)
-        } else {
-            Span::Around(0.5 * (end - start))
-        }
-    }
-
-    /// What is spent on a pair that goes on in the halves: the shorter the interval, the more. So long intervals are not searched in
-    /// vain, and what short ones decide is not decided again in too many still shorter ones.
-    fn max_work(&self) -> u32 {
-        let [start, end] = self.times;
-        (WORK_PER_LENGTH / (end - start)) as u32
-    }
-
-    /// Adds what comes before a contact at `meeting`; the primitives that meet there are apart up to `apart`.
-    fn before(&self, apart: f64, meeting: f64, part: FrontPart, todo: &mut Vec<Self>) {
-        let [start, _] = self.times;
-        let with = |times: [f64; 2], ends_near_contact: bool| Self {
-            times,
-            part,
-            ends_near_contact,
-        };
-        if start < apart && apart < meeting {
-            todo.push(with([apart, meeting], false));
-            todo.push(with([start, apart], true));
-        } else {
-            todo.push(with([start, meeting], false));
-        }
-    }
-
-    /// Adds both halves, the first of them last: it is looked at next.
-    fn halve(&self, part: FrontPart, todo: &mut Vec<Self>) {
-        let [start, end] = self.times;
-        let middle = 0.5 * (start + end);
-        let later = Self {
-            times: [middle, end],
-            part,
-            ends_near_contact: self.ends_near_contact,
-        };
-        let first = Self {
-            times: [start, middle],
-            part,
-            ends_near_contact: false,
-        };
-        todo.extend([later, first]);
+impl Found {
+    /// Whether the start is to be asked for by itself, now that an interval is not free; once.
+    fn wants_start(&mut self, interval: &Undecided, whole: SetVerdict) -> bool {
+        let [start, end] = interval.times;
+        let is_near = whole == SetVerdict::Meets || end <= START_ASKED_BELOW;
+        let is_wanted = start == 0.0 && is_near && !self.is_start_asked;
+        self.is_start_asked |= is_wanted;
+        is_wanted
     }
 }
 
@@ -383,99 +305,5 @@ impl<'a> Prover<'a, '_, '_, '_> {
         // Of other sets the contact of one leaf says little.
         let met = look.met.filter(|_| is_plain);
         Ok(Outcome { whole, left, met })
-    }
-}
-
-impl MovingSet<'_> {
-    /// Looks at all leaves of which nothing is known from a larger piece; says what is known of the set.
-    #[inline(always)]
-    pub fn look_at_all<I: Instructions, P: Piece>(
-        &self,
-        lanes: I,
-        look: &mut Look<P>,
-        part: &FrontPart,
-        middle: Middle,
-        memory: &mut Vec<SetVerdict>,
-    ) -> Result<SetVerdict> {
-        look.start(part);
-        self.look_at_known(look, middle)?;
-        self.look_at_pure(look, middle)?;
-        let is_plain = self.tree.is_plain_union();
-        let mut whole = self.tree.verdict(look.verdicts, memory);
-        let mut cursor = *part;
-        for (number, leaf) in self.leaves.iter().enumerate() {
-            let MovingLeaf::Pairs { complement } = leaf else {
-                continue;
-            };
-            if whole == SetVerdict::Free {
-                break;
-            }
-            let is_passed = whole == SetVerdict::Meets && is_plain;
-            look.look_at(lanes, number, *complement, is_passed, part, &mut cursor);
-            whole = self.tree.verdict(look.verdicts, memory);
-        }
-        Ok(whole)
-    }
-
-    /// Asks where the classes of parts are known.
-    fn look_at_known<P: Piece>(&self, look: &mut Look<P>, middle: Middle) -> Result<()> {
-        let Some(way) = middle.way else {
-            return Ok(());
-        };
-        for (number, leaf) in self.leaves.iter().enumerate() {
-            if let MovingLeaf::Known { sets, complement } = leaf
-                && look.verdicts[number] == SetVerdict::Undecided
-            {
-                let interval = match look.piece.extent() {
-                    Extent::Time { time, span } => Some((time, span)),
-                    Extent::Box(_) => None,
-                };
-                let space = way.line.cobject.space();
-                let at = way.at(middle.time)?;
-                let over = way.with_around(interval, |around| {
-                    verdict_over(sets, *complement, space, around, &at)
-                })?;
-                match over {
-                    SetVerdict::Free => look.settle(number, SetVerdict::Free),
-                    verdict => look.verdicts[number] = verdict,
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Asks the pure leaves.
-    fn look_at_pure<P: Piece>(&self, look: &mut Look<P>, middle: Middle) -> Result<()> {
-        let mut is_asked = false;
-        for (leaf, verdict) in self.leaves.iter().zip(look.verdicts.iter_mut()) {
-            match leaf {
-                MovingLeaf::Pairs { .. } | MovingLeaf::Known { .. } => {}
-                MovingLeaf::Everything => *verdict = SetVerdict::Meets,
-                MovingLeaf::Pure(_) => is_asked |= *verdict == SetVerdict::Undecided,
-            }
-        }
-        let (true, Some(way)) = (is_asked, middle.way) else {
-            return Ok(());
-        };
-        let q = way.at(middle.time)?;
-        let scene = &way.scene(&q)?;
-        for (number, leaf) in self.leaves.iter().enumerate() {
-            if let MovingLeaf::Pure(pure) = leaf
-                && look.verdicts[number] == SetVerdict::Undecided
-            {
-                // A look at no geometry is work too, or nothing would end a proof beside a pure set.
-                look.scratch.meter_mut().count_nodes(1);
-                let moment = Moment {
-                    way,
-                    scene,
-                    extent: look.piece.extent(),
-                };
-                match pure.over(&moment)? {
-                    SetVerdict::Free => look.settle(number, SetVerdict::Free),
-                    verdict => look.verdicts[number] = verdict,
-                }
-            }
-        }
-        Ok(())
     }
 }

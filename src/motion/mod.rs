@@ -22,6 +22,7 @@ mod look_at_boxes;
 mod motion;
 mod moving_pair;
 mod moving_pure;
+mod moving_set;
 mod near_boxes;
 mod over_pairs;
 mod over_piece;
@@ -47,6 +48,7 @@ mod span;
 mod start_contacts;
 mod stated_motion;
 mod step_limits;
+mod undecided;
 mod valley;
 mod way;
 

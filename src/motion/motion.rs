@@ -3,10 +3,11 @@
 
 use super::crowd::Crowd;
 use super::gathering::{Gathering, Keeps};
-use super::interval_proof::{Confirm, MovingSet, Proof, ProofLimits, prove};
+use super::interval_proof::{Confirm, Proof, ProofLimits, prove};
 use super::kinematics::Kinematics;
 use super::linear_motion::LinearMotion;
 use super::moving_pair::MovingPair;
+use super::moving_set::MovingSet;
 use super::proof_memory::ProofMemory;
 use super::set_tree::SetTree;
 use super::start_contacts::StartContacts;

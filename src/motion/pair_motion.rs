@@ -1,10 +1,11 @@
 //! Two bodies without a robot, each on a screw from one pose to another.
 
 use super::carried::Carried;
-use super::interval_proof::{MovingLeaf, MovingSet, Proof, ProofLimits, prove};
+use super::interval_proof::{Proof, ProofLimits, prove};
 use super::kinematics::Kinematics;
 use super::motion::{MotionOptions, MotionOutcome};
 use super::moving_pair::MovingPair;
+use super::moving_set::{MovingLeaf, MovingSet};
 use super::pair_rates::PairRates;
 use super::proof_memory::ProofMemory;
 use super::set_tree::SetTree;

@@ -3,7 +3,7 @@
 
 use super::crowd::CrowdMemory;
 use super::gathering::{Gathering, Keeps};
-use super::interval_proof::MovingSet;
+use super::moving_set::MovingSet;
 use super::region_proof::{BoxProof, BoxWork, Center, Region, RegionProof, prove_region};
 use super::set_tree::SetTree;
 use crate::cobject::{CObject, Class};

@@ -3,9 +3,9 @@
 
 use super::box_piece::BoxPiece;
 use super::front::{Front, FrontPart};
-use super::interval_proof::{Middle, MovingSet};
 use super::linear_motion::LinearMotion;
 use super::look::Look;
+use super::moving_set::{Middle, MovingSet};
 use super::over_pairs::OverPairs;
 use super::over_piece::ManyTwists;
 use super::pair_look::PairLook;

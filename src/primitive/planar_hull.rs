@@ -9,6 +9,7 @@ use robust::{Coord, orient2d};
 use crate::pose::Vec3;
 
 /// Two unit vectors that form a right-handed frame with the unit vector `normal`.
+#[inline(always)]
 pub fn plane_axes(normal: &Vec3) -> (Vec3, Vec3) {
     let other = match normal.iamin() {
         0 => Vec3::x(),
