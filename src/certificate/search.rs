@@ -61,7 +61,7 @@ impl QueryContext {
         let start = Configuration::Coordinates(q0);
         let scene = &Scene::new(cobject.space(), world, start, SceneMemory::default())?;
         let statement = &Statement::of(cobject, scene, options.threshold)?;
-        let answer = self.motion_in(world, cobject, [q0, &v], options)?;
+        let answer = self.motion_in(world, cobject, [q0, &v], q1, options)?;
         if answer.outcome != MotionOutcome::Free {
             return Ok((answer, None));
         }
@@ -206,7 +206,7 @@ impl Search<'_> {
             any_contact: true,
             ..*self.options
         };
-        let q = self.measure.configuration(start);
+        let [q, reached] = [start, end].map(|time| self.measure.configuration(time));
         let v = self
             .measure
             .course
@@ -216,7 +216,7 @@ impl Search<'_> {
         let v: Vec<f64> = v.collect();
         let found = self
             .context
-            .motion_in(self.world, set, [&q, &v], &options)?;
+            .motion_in(self.world, set, [&q, &v], &reached, &options)?;
         match found.outcome {
             MotionOutcome::Undecided => Err(Stop::Exceeded),
             outcome => Ok(outcome == MotionOutcome::Free),

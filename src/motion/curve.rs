@@ -6,7 +6,7 @@ use super::way::{Way, WayKind};
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result};
 use crate::query::{QueryContext, World};
-use crate::robot::{BlockKind, MAX_DEGREE, bezier_speed};
+use crate::robot::{BlockKind, MAX_DEGREE, between, bezier_speed};
 use crate::space::Space;
 
 /// A B-spline through C-space: its parameter goes from the knot of number `degree` to that of number `points / nq`.
@@ -192,8 +192,8 @@ impl Spline<'_> {
                 let [low, high] = [self.knots[first + i], self.knots[k + 1 + i - level]];
                 let share = (argument - low) / (high - low);
                 for c in 0..nq {
-                    let before = points[(i - 1) * nq + c];
-                    points[i * nq + c] = before + share * (points[i * nq + c] - before);
+                    points[i * nq + c] =
+                        between(points[(i - 1) * nq + c], points[i * nq + c], share);
                 }
             }
         }

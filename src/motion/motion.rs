@@ -203,21 +203,23 @@ impl QueryContext {
         self.motion_on(way, options)
     }
 
-    /// The same in a world, within the work of a call that [`Self::begin_motion`] began.
+    /// The same from q with velocity v to `end`, which they sum up to but for their rounding, in a world: within the work of a call that
+    /// [`Self::begin_motion`] began.
     pub(crate) fn motion_in(
         &mut self,
         world: &World,
         cobject: &CObject,
         [q, v]: [&[f64]; 2],
+        end: &[f64],
         options: &MotionOptions,
     ) -> Result<MotionAnswer> {
-        let way = &Way::straight(LinearMotion {
+        let line = LinearMotion {
             world,
             cobject,
             q,
             v,
-        });
-        self.motion_on(way, options)
+        };
+        self.motion_on(&Way::straight_to(line, end), options)
     }
 
     /// Checks what all motions need; takes the world.

@@ -186,7 +186,7 @@ fn bezier_at(controls: &[f64], t: f64) -> CourseState {
             first = points[1] - points[0];
         }
         for i in 0..count {
-            points[i] += t * (points[i + 1] - points[i]);
+            points[i] = between(points[i], points[i + 1], t);
         }
     }
     CourseState {
@@ -194,6 +194,16 @@ fn bezier_at(controls: &[f64], t: f64) -> CourseState {
         rate: degree * first,
         acceleration: degree * (degree - 1.0) * second,
     }
+}
+
+/// A part of the way from one coordinate to another, never beyond either, whatever is rounded: a curve whose control points are at a limit of
+/// a joint stays there.
+pub fn between(from: f64, to: f64, share: f64) -> f64 {
+    if share == 1.0 {
+        return to;
+    }
+    let [low, high] = [from.min(to), from.max(to)];
+    (from + share * (to - from)).max(low).min(high)
 }
 
 /// The value of a Bezier curve at time t.

@@ -25,7 +25,7 @@ mod whole;
 pub use builder::{LinkDefinition, RobotBuilder};
 pub use coordinate::{Block, BlockKind, Coordinate};
 pub use course::CourseState;
-pub use course::{MAX_DEGREE, bezier, bezier_speed};
+pub use course::{MAX_DEGREE, between, bezier, bezier_speed};
 pub use custom_joint::{CustomJoint, MAX_COORDINATES, Speeds, Twist};
 pub use jacobian::{Column, RobotState};
 pub use joint::{Joint, JointKind};

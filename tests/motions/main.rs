@@ -11,6 +11,7 @@ mod compound;
 mod compound_hulls;
 mod curves;
 mod discs;
+mod ends_at_limits;
 mod forged;
 mod free_limits;
 mod known_classes;
