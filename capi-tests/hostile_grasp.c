@@ -160,7 +160,7 @@ static void count_destroyed(void *data) {
 static void grasp_and_release(const fixture *f) {
     cstk_environment *world = NULL;
     cstk_cobject *set = NULL;
-    cstk_environment_change changes[2];
+    cstk_environment_change changes[3] = {0};
     uint64_t ids[2];
     destroyed = 0;
     CHECK_OK(cstk_environment_create(&world));
@@ -176,6 +176,11 @@ static void grasp_and_release(const fixture *f) {
                 "changes[1].pose");
     CHECK(destroyed == 0);
     changes[1].pose[0] = 1;
+    changes[1].size += 8;
+    CHECK_FAILS(cstk_environment_apply(world, changes, 2, ids, NULL), CSTK_ERROR_WRONG_SIZE,
+                "changes[1].size");
+    CHECK(destroyed == 0);
+    changes[1].size -= 8;
     CHECK_OK(cstk_environment_apply(world, changes, 2, ids, NULL));
     CHECK_OK(cstk_cobject_induced(f->space, NULL, 0, world, NULL, 0, NULL, &set));
     cstk_distance_result free_distance;

@@ -232,7 +232,8 @@ typedef int32_t cstk_status;
 #endif // __cplusplus
 
 /**
- * Releases user data: called once, when nothing refers to them any more. It may call the library.
+ * Releases user data: called once, when nothing refers to them any more. It may call the
+ * library; it must not throw.
  */
 typedef void (*cstk_destroy_fn)(void *user);
 
@@ -966,7 +967,7 @@ cstk_status cstk_body_release(cstk_body *body);
 /**
  * Attaches user data to a body, however it was created (§2.2.3). Witnesses return it: as `r_data` for a link's body, and
  * as `s_data` for the body of a link or of an s-object without its own data. A second call for the same body is
- * CSTK_ERROR_INVALID_ARGUMENT. `destroy` may be NULL; it is called once, by the thread that drops the last reference to
+ * CSTK_ERROR_INVALID_ARGUMENT; one with NULL for both attaches nothing and is no call in this sense. `destroy` may be NULL; it is called once, by the thread that drops the last reference to
  * the body, and not if this call fails. Other threads may query the body meanwhile.
  */
 cstk_status cstk_body_set_data(cstk_body *body,
@@ -2038,7 +2039,7 @@ cstk_status cstk_urdf_options_default(cstk_urdf_options *out, size_t size);
  * it.
  *
  * Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes: box,
- * sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled (as by cstk_body_builder_add_mesh); the shapes of one link become
+ * sphere, cylinder, capsule, and meshes in OBJ, STL, PLY and DAE, scaled (as by cstk_body_builder_add_mesh); the shapes of one link become
  * one body. Meshes are surfaces unless the options' mesh forms make them solids or convex hulls. A mesh file is read once, and links with equal shapes share one
  * body, and its cstk_body_set_data. Everything else in the file is skipped; cstk_robot_builder_get_urdf_report counts it.
  * Error messages name the file, the line and the element; the builder is then unchanged.
@@ -3602,8 +3603,9 @@ cstk_status cstk_query_retain(cstk_query *query);
 cstk_status cstk_query_release(cstk_query *query);
 
 /**
- * Writes the version of an environment that the last query with this context saw. CSTK_ERROR_NOT_FOUND if the query's
- * C-object does not refer to the environment, or there was no query yet.
+ * Writes the version of an environment that the last query of a C-object, of objects or of a configuration with this context saw, also
+ * one that failed after it began to look; queries of two bodies or of a space's link pairs see none and change nothing. CSTK_ERROR_NOT_FOUND
+ * if that query's C-object does not refer to the environment, or there was no such query yet.
  */
 cstk_status cstk_query_get_version(cstk_query *query,
                                    const cstk_environment *environment,
@@ -3646,7 +3648,7 @@ cstk_status cstk_query_set_limit(cstk_query *query,
  * over much of a surface ends after 16384 steps, with the bounds that are proved by then: the distance is CSTK_DISTANCE_LOWER_BOUND
  * where they are farther apart than `gap`. Each step counts as one of `node_pairs` (cstk_query_set_limit).
  *
- * Not refined are lists of witnesses and verdicts, queries of all pairs of objects, motions, regions, slides, maps, batches (they have
+ * Not refined are lists of witnesses, verdicts (cstk_explain: its class too), the class and distance of cstk_pseudo_normal, queries of all pairs of objects, motions, regions, slides, maps, batches (they have
  * contexts of their own), depths and signed distances; bodies whose builder was told of a deviation (cstk_body_builder_set_deviation), bodies read from files, refitted
  * bodies, and surfaces with more than 2^20 control points once knots are inserted: they are answered for as without it. Bodies made of others (cstk_body_builder_add_body) are refined as these are.
  *
@@ -4362,7 +4364,7 @@ cstk_status cstk_pseudo_normal(cstk_query *query,
                                cstk_pseudo_normal_result *out);
 
 /**
- * Writes the class of q as cstk_classify does, and what decides it: the leaves of the C-object, and at most `max_count`
+ * Writes the class of q as cstk_classify does without refinement, and what decides it: the leaves of the C-object, and at most `max_count`
  * primitive pairs (§2.2.4, operations 4 and 5). Slower than cstk_classify, since every leaf is tested. `q` has `nq`
  * doubles.
  */

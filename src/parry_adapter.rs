@@ -2,8 +2,6 @@
 
 use std::panic::catch_unwind;
 
-use nalgebra::Vector2;
-use parry2d_f64::shape::TriMesh;
 use parry3d_f64::transformation::try_convex_hull;
 
 use crate::pose::Vec3;
@@ -19,14 +17,4 @@ pub fn propose_hull(points: &[Vec3]) -> Option<(Vec<Vec3>, Vec<[u32; 3]>)> {
     let (vertices, triangles) = catch_unwind(|| try_convex_hull(&given)).ok()?.ok()?;
     let vertices = vertices.iter().map(|p| Vec3::new(p.x, p.y, p.z)).collect();
     Some((vertices, triangles))
-}
-
-/// Splits a simple polygon into triangles by ear clipping; indices into `points`. `None` where it is not simple.
-pub fn triangulate_simple_polygon(points: &[Vector2<f64>]) -> Option<Vec<[u32; 3]>> {
-    let given: Vec<_> = points
-        .iter()
-        .map(|p| parry2d_f64::math::Vector::new(p.x, p.y))
-        .collect();
-    let mesh = catch_unwind(|| TriMesh::from_polygon(given)).ok()??;
-    Some(mesh.indices().to_vec())
 }

@@ -1,5 +1,7 @@
 //! Reading XML files, through the crate roxmltree, with failures that name line and element.
 
+use std::borrow::Cow;
+
 use roxmltree::{Document, Node};
 
 use crate::error::{Error, ErrorKind, Result};
@@ -54,6 +56,19 @@ fn require_parseable(text: &str) -> Result<()> {
         end += part.len() + 1;
     }
     Ok(())
+}
+
+/// The text of an element itself, whatever comments stand in it.
+pub fn text_in<'a>(node: Node<'a, '_>) -> Cow<'a, str> {
+    let mut texts = node
+        .children()
+        .filter(Node::is_text)
+        .filter_map(|part| part.text());
+    let first = texts.next().unwrap_or_default();
+    match texts.next() {
+        None => Cow::Borrowed(first),
+        Some(second) => Cow::Owned([first, second].into_iter().chain(texts).collect()),
+    }
 }
 
 /// The place of an element: `line 12, <origin>`.

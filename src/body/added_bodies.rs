@@ -46,7 +46,11 @@ impl AddedBody {
 /// The bodies of a builder, in the order in which they were added. The builder's other primitives, those added by themselves,
 /// are its `singles`.
 #[derive(Clone, Debug, Default)]
-pub(super) struct AddedBodies(Vec<AddedBody>);
+pub(super) struct AddedBodies {
+    bodies: Vec<AddedBody>,
+    /// The number of primitives of all.
+    primitives: usize,
+}
 
 impl AddedBodies {
     /// Adds a body whose first primitive has this number among all.
@@ -68,38 +72,42 @@ impl AddedBodies {
                 tolerance::LARGEST_COORDINATE
             )));
         }
-        self.0.push(added);
+        self.primitives += added.part.count as usize;
+        self.bodies.push(added);
         Ok(())
     }
 
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.bodies.is_empty()
     }
 
     /// The number of their primitives.
     pub fn primitive_count(&self) -> usize {
-        self.0.iter().map(|added| added.part.count as usize).sum()
+        self.primitives
     }
 
     pub fn parts(&self) -> Vec<BodyPart> {
-        self.0.iter().map(|added| added.part).collect()
+        self.bodies.iter().map(|added| added.part).collect()
     }
 
     /// The largest deviation that any of them states.
     pub fn stated_deviation(&self) -> f64 {
-        let stated = self.0.iter().map(|added| added.body.stated_deviation());
+        let stated = self
+            .bodies
+            .iter()
+            .map(|added| added.body.stated_deviation());
         stated.fold(0.0, f64::max)
     }
 
     /// The largest deviation of what is no cell of a patch.
     pub fn flat_deviation(&self) -> f64 {
-        let flat = self.0.iter().map(|added| added.body.flat_deviation());
+        let flat = self.bodies.iter().map(|added| added.body.flat_deviation());
         flat.fold(0.0, f64::max)
     }
 
     /// Appends the cells of their patches, in the frame around a centre.
     pub fn append_curved(&self, curved: &mut CurvedCells, center: &Vec3) {
-        for added in &self.0 {
+        for added in &self.bodies {
             if let Some(cells) = added.body.curved() {
                 curved.append(cells, added.part.first, &added.centered(center));
             }
@@ -107,14 +115,14 @@ impl AddedBodies {
     }
 
     pub fn statistics(&self) -> impl Iterator<Item = &BodyStatistics> {
-        self.0.iter().map(|added| added.body.statistics())
+        self.bodies.iter().map(|added| added.body.statistics())
     }
 
     /// The numbers that so many singles have among all.
     pub fn single_numbers(&self, singles: usize) -> Vec<u32> {
         let mut numbers = Vec::with_capacity(singles);
         let mut next = 0;
-        for added in &self.0 {
+        for added in &self.bodies {
             numbers.extend(next..added.part.first);
             next = added.part.first + added.part.count;
         }
@@ -125,7 +133,7 @@ impl AddedBodies {
     /// The lowest and highest coordinates of everything.
     pub fn extent(&self, singles: &Primitives) -> (Vec3, Vec3) {
         let of_singles = (!singles.is_empty()).then(|| singles.extent());
-        let of_bodies = self.0.iter().map(AddedBody::extent);
+        let of_bodies = self.bodies.iter().map(AddedBody::extent);
         let all = of_singles.into_iter().chain(of_bodies);
         all.reduce(|all, one| (all.0.inf(&one.0), all.1.sup(&one.1)))
             .unwrap_or_default()
@@ -137,7 +145,7 @@ impl AddedBodies {
             return singles.recentered(center);
         }
         let mut of_bodies = 0;
-        let posed = self.0.iter().map(|added| {
+        let posed = self.bodies.iter().map(|added| {
             let before = added.part.first as usize - of_bodies;
             of_bodies += added.part.count as usize;
             PosedPrimitives {
@@ -152,7 +160,7 @@ impl AddedBodies {
 
     /// Their hierarchies, in the frame around a centre.
     pub fn hierarchies(&self, center: &Vec3) -> Vec<PartHierarchy<'_>> {
-        let hierarchies = self.0.iter().map(|added| PartHierarchy {
+        let hierarchies = self.bodies.iter().map(|added| PartHierarchy {
             packed: &added.body.packed,
             wrappers: &added.body.wrappers,
             pose: added.centered(center),
@@ -168,7 +176,7 @@ impl AddedBodies {
         center: &Vec3,
         primitives: &Primitives,
     ) -> Option<Solid> {
-        let are_parts_solid = self.0.iter().any(|added| added.body.solid().is_some());
+        let are_parts_solid = self.bodies.iter().any(|added| added.body.solid().is_some());
         if own.is_none() && !are_parts_solid {
             return None;
         }
@@ -189,7 +197,7 @@ impl AddedBodies {
             surfaces.begin(0, 0);
             next = 1;
         }
-        for added in &self.0 {
+        for added in &self.bodies {
             let Some(solid) = added.body.solid() else {
                 continue;
             };

@@ -255,8 +255,8 @@ impl<T: Copy> OutputSlice<T> {
     }
 }
 
-/// An options structure that C fills in. It begins with `size` and `cookie`. Fields are only ever appended, and 0 in a
-/// field that the caller does not know means its default.
+/// An options structure that C fills in. It begins with `size` and `cookie`. Fields are only ever appended: those that
+/// an older caller lacks get their defaults, and bytes that a newer caller has beyond those known here must be 0.
 ///
 /// # Safety
 /// `repr(C)`, beginning with two `u32`, without padding, valid for every bit pattern.
@@ -417,5 +417,14 @@ pub fn index_or_none(value: i32, argument: &str) -> Result<Option<usize>, Failur
             cstk_status::CSTK_ERROR_INVALID_ARGUMENT,
             format!("{argument} is {value}; it must be -1 or an index"),
         )),
+    }
+}
+
+/// The address of an array; NULL if it is empty.
+pub fn start<T>(items: &[T]) -> *const T {
+    if items.is_empty() {
+        std::ptr::null()
+    } else {
+        items.as_ptr()
     }
 }

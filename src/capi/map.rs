@@ -28,9 +28,8 @@ use super::boundary::{Failure, guard};
 use super::handle;
 use super::handle::Noun;
 use super::input::{
-    OptionsStruct, Output, collected, options_or_default, path, slice, write_defaults,
+    OptionsStruct, Output, collected, options_or_default, path, slice, start, write_defaults,
 };
-use super::query::start;
 use crate::capi::cobject::cobject::cstk_cobject;
 use crate::capi::status::callbacks::{cstk_progress_fn, reporter};
 use crate::capi::status::status::cstk_status;

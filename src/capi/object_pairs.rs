@@ -16,8 +16,8 @@ use std::ffi::c_void;
 
 use super::boundary::{Failure, guard};
 use super::handle;
-use super::input::{OptionsStruct, Output, options_or_default, write_defaults};
-use super::query::{State, cstk_query, refill, start, with_query};
+use super::input::{OptionsStruct, Output, options_or_default, start, write_defaults};
+use super::query::{State, cstk_query, refill, with_query};
 use super::user_data::address;
 use crate::capi::at_configuration::answers::{cstk_class, cstk_distance_result, cstk_witness_list};
 use crate::capi::environment::environment::cstk_environment;

@@ -17,7 +17,7 @@ use super::boundary::{Failure, guard};
 use super::exclusive::exclusively;
 use super::handle;
 use super::handle::Noun;
-use super::input::Output;
+use super::input::{Output, start};
 use crate::capi::at_configuration::answers::{
     cstk_contact, cstk_distance_result, cstk_penetration, cstk_penetration_list, cstk_witness,
     cstk_witness_list,
@@ -77,15 +77,6 @@ impl Noun for Query {
 pub(super) fn refill<'a, T: 'a, U: From<&'a T>>(array: &mut Vec<U>, items: &'a [T]) {
     array.clear();
     array.extend(items.iter().map(From::from));
-}
-
-/// The address of an array; NULL if it is empty.
-pub(super) fn start<T>(items: &[T]) -> *const T {
-    if items.is_empty() {
-        std::ptr::null()
-    } else {
-        items.as_ptr()
-    }
 }
 
 impl State {
@@ -207,8 +198,9 @@ pub unsafe extern "C" fn cstk_query_release(query: *mut cstk_query) -> cstk_stat
     guard(|| handle::release::<Query>(query, "query"))
 }
 
-/// Writes the version of an environment that the last query with this context saw. CSTK_ERROR_NOT_FOUND if the query's
-/// C-object does not refer to the environment, or there was no query yet.
+/// Writes the version of an environment that the last query of a C-object, of objects or of a configuration with this context saw, also
+/// one that failed after it began to look; queries of two bodies or of a space's link pairs see none and change nothing. CSTK_ERROR_NOT_FOUND
+/// if that query's C-object does not refer to the environment, or there was no such query yet.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_query_get_version(
     query: *mut cstk_query,
@@ -305,7 +297,7 @@ pub unsafe extern "C" fn cstk_query_set_limit(
 /// over much of a surface ends after 16384 steps, with the bounds that are proved by then: the distance is CSTK_DISTANCE_LOWER_BOUND
 /// where they are farther apart than `gap`. Each step counts as one of `node_pairs` (cstk_query_set_limit).
 ///
-/// Not refined are lists of witnesses and verdicts, queries of all pairs of objects, motions, regions, slides, maps, batches (they have
+/// Not refined are lists of witnesses, verdicts (cstk_explain: its class too), the class and distance of cstk_pseudo_normal, queries of all pairs of objects, motions, regions, slides, maps, batches (they have
 /// contexts of their own), depths and signed distances; bodies whose builder was told of a deviation (cstk_body_builder_set_deviation), bodies read from files, refitted
 /// bodies, and surfaces with more than 2^20 control points once knots are inserted: they are answered for as without it. Bodies made of others (cstk_body_builder_add_body) are refined as these are.
 ///

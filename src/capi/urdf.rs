@@ -223,7 +223,7 @@ pub unsafe extern "C" fn cstk_urdf_options_default(
 /// it.
 ///
 /// Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes: box,
-/// sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled (as by cstk_body_builder_add_mesh); the shapes of one link become
+/// sphere, cylinder, capsule, and meshes in OBJ, STL, PLY and DAE, scaled (as by cstk_body_builder_add_mesh); the shapes of one link become
 /// one body. Meshes are surfaces unless the options' mesh forms make them solids or convex hulls. A mesh file is read once, and links with equal shapes share one
 /// body, and its cstk_body_set_data. Everything else in the file is skipped; cstk_robot_builder_get_urdf_report counts it.
 /// Error messages name the file, the line and the element; the builder is then unchanged.

@@ -5,7 +5,6 @@ use super::closest::{Closest, Segment, closest_parameters};
 use super::cuboid_axes::{CuboidAxes, EdgeGap, GAP_ERROR};
 use super::parallel_cuboids::parallel_closest;
 use super::placed::PlacedPrimitive;
-use crate::gjk::DistanceLimits;
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::{Vec3, turned, turned_back};
 use crate::primitive::{Cuboid, Feature};
@@ -25,13 +24,13 @@ pub fn cuboids_closest(
     placed: [&PlacedPrimitive; 2],
     cuboids: [&Cuboid; 2],
     size: f64,
-    limits: DistanceLimits,
+    cutoff: f64,
 ) -> CuboidsClosest {
     with_widest(Search {
         placed,
         cuboids,
         size,
-        cutoff: limits.cutoff,
+        cutoff,
     })
 }
 
@@ -298,9 +297,8 @@ mod tests {
         let placed_a = buffer_a.place(&shape_a, Some(&forms[0]), &a.pose);
         let placed_b = buffer_b.place(&shape_b, Some(&forms[1]), &b.pose);
         let cuboids = [forms[0].cuboid().unwrap(), forms[1].cuboid().unwrap()];
-        let limits = DistanceLimits::EXACT;
         let CuboidsClosest::Found(found) =
-            cuboids_closest([&placed_a, &placed_b], cuboids, 5.0, limits)
+            cuboids_closest([&placed_a, &placed_b], cuboids, 5.0, f64::INFINITY)
         else {
             return None;
         };

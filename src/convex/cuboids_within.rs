@@ -2,7 +2,6 @@
 
 use super::cuboid_axes::{CuboidAxes, EdgeGap, GAP_ERROR};
 use super::placed::PlacedPrimitive;
-use crate::gjk::DistanceLimits;
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::primitive::Cuboid;
 use crate::tolerance;
@@ -13,14 +12,14 @@ pub fn cuboids_within(
     placed: [&PlacedPrimitive; 2],
     cuboids: [&Cuboid; 2],
     size: f64,
-    limits: DistanceLimits,
+    cutoff: f64,
 ) -> Option<bool> {
     with_widest(Axes {
         placed,
         cuboids,
         error: GAP_ERROR * size,
         size,
-        cutoff: limits.cutoff,
+        cutoff,
     })
 }
 

@@ -9,7 +9,6 @@ use super::polytope_distance::{DistanceScratch, closed_form, closest_polytopes, 
 use super::smooth_distance::smooth_closest;
 use crate::gjk::{DistanceLimits, Proved, Support, meeting};
 use crate::pose::Vec3;
-use crate::primitive::{Smooth, SmoothKind};
 use crate::tolerance;
 
 /// The closest points of two primitives, and what their contacts are computed from.
@@ -81,6 +80,12 @@ pub fn beyond_radii(cores: f64, [a, b]: [f64; 2]) -> f64 {
     if cores >= a + b { cores - a - b } else { 0.0 }
 }
 
+/// How far the middle of the overlap of two sets is from the core of the first, along the line between the cores, which are `apart`.
+#[inline(always)]
+pub fn middle_of_overlap(apart: f64, [a, b]: [f64; 2]) -> f64 {
+    0.5 * ((apart - b).max(0.0) + a.min(apart))
+}
+
 /// The closest points of two sets, from those of their cores. Where the sets overlap, both are the same common point, between
 /// the cores.
 #[inline(always)]
@@ -99,12 +104,11 @@ fn grown(cores: &Closest, radii: [f64; 2]) -> Closest {
             ..*cores
         };
     }
-    // The middle of the overlap along the line between the cores.
-    let between = 0.5 * ((apart - b).max(0.0) + a.min(apart));
+    let middle = on_a - normal * middle_of_overlap(apart, radii);
     Closest {
         doubt: cores.doubt,
         depth: cores.depth,
-        ..Closest::meeting_at(on_a - normal * between, cores.features)
+        ..Closest::meeting_at(middle, cores.features)
     }
 }
 
@@ -120,13 +124,8 @@ pub fn parts(
         return false;
     };
     let cutoff = cutoff + a.shape.radius() + b.shape.radius();
-    let [a, b] = [(a, -direction), (b, *direction)].map(|(placed, direction)| {
-        if placed.shape.smooth().is_some() {
-            Core::of(placed).support(&direction)
-        } else {
-            placed.support(&direction)
-        }
-    });
+    let [a, b] = [(a, -direction), (b, *direction)]
+        .map(|(placed, direction)| Core::of(placed).support(&direction));
     direction.dot(&(a - b)) > cutoff
 }
 
@@ -139,12 +138,10 @@ fn proved_cutoff(
     pair: &Precision,
     cutoff: f64,
 ) -> Option<f64> {
-    let smooth = [a.shape.smooth(), b.shape.smooth()];
-    if smooth.iter().all(Option::is_none) {
+    if !is_smooth(a, b) {
         return Some(cutoff);
     }
-    let is_function = |smooth: &&Smooth| matches!(smooth.kind, SmoothKind::Function(_));
-    let has_function = smooth.iter().flatten().any(is_function);
+    let has_function = a.shape.is_function() || b.shape.is_function();
     (!has_function).then_some(cutoff + tolerance::SMOOTH_ERROR * pair.size)
 }
 
@@ -157,9 +154,9 @@ pub fn meeting_or_beyond(
 ) -> Option<Proved> {
     let radii = a.shape.radius() + b.shape.radius();
     if let (Some(on_a), Some(on_b)) = (cuboid(a), cuboid(b)) {
-        let limits = limits.of_cores(radii);
+        let cutoff = limits.of_cores(radii).cutoff;
         return Some(
-            match cuboids_within([a, b], [on_a, on_b], pair.size, limits)? {
+            match cuboids_within([a, b], [on_a, on_b], pair.size, cutoff)? {
                 true => Proved::Meet,
                 false => Proved::Beyond {
                     direction: Vec3::zeros(),

@@ -43,7 +43,8 @@ pub use closest::{Closest, Segment, closest_parameters};
 pub use contact::{Contact, ContactMode, mode_of};
 pub use contacts::{contacts, first_contact};
 pub use distance::{
-    PrimitiveDistance, beyond_radii, closed_distance, measure, meeting_or_beyond, parts,
+    PrimitiveDistance, beyond_radii, closed_distance, measure, meeting_or_beyond,
+    middle_of_overlap, parts,
 };
 pub use outline::{MAX_CORNERS, Outline, moved};
 pub use penetration::penetration;

@@ -55,7 +55,7 @@ fn closest_by_features(
         return Ok(planar_closest(a, b, pair, scratch));
     }
     if let (Some(on_a), Some(on_b)) = (cuboid(a), cuboid(b)) {
-        return match cuboids_closest([a, b], [on_a, on_b], pair.size, limits) {
+        return match cuboids_closest([a, b], [on_a, on_b], pair.size, limits.cutoff) {
             CuboidsClosest::Beyond => Err(Beyond::SOMEHOW),
             CuboidsClosest::Found(found) => Ok(found),
             CuboidsClosest::Unknown(start) => bounded_closest(a, b, start, pair, limits, scratch),

@@ -134,10 +134,6 @@ fn least_along(placed: &PlacedPrimitive, direction: &Vec3) -> f64 {
         return 0.0;
     }
     let back = direction / -length;
-    let point = if placed.shape.smooth().is_some() {
-        Core::of(placed).support(&back)
-    } else {
-        placed.support(&back)
-    };
+    let point = Core::of(placed).support(&back);
     -length * (back.dot(&point) + placed.shape.radius())
 }

@@ -248,6 +248,13 @@ impl QueryContext {
         for _ in 0..MAX_PROOFS {
             let upper = bounds.nearest.upper();
             let allowed = options.allowed(upper);
+            if !is_empty
+                && bounds
+                    .proved
+                    .is_some_and(|proved| upper - proved <= allowed)
+            {
+                return Ok(ClearanceOutcome::Known);
+            }
             if ceiling - bounds.lower() <= 0.25 * allowed {
                 break;
             }
@@ -270,12 +277,9 @@ impl QueryContext {
                     return Ok(ClearanceOutcome::Empty);
                 }
                 MotionOutcome::Free => {
-                    bounds.proved = Some(threshold);
+                    bounds.proved = Some(bounds.lower().max(threshold));
                     if threshold >= options.max_distance {
                         return Ok(ClearanceOutcome::BeyondMax);
-                    }
-                    if upper - threshold <= allowed {
-                        return Ok(ClearanceOutcome::Known);
                     }
                     failures = 0;
                 }

@@ -372,8 +372,8 @@ impl<'a> Gathering<'a, '_> {
     /// The largest part of a motion that lies between the middle and any other time.
     fn share(&self) -> f64 {
         match self.way.kind {
-            WayKind::Line => 0.5,
-            WayKind::Curve { .. } | WayKind::Stated(_) | WayKind::Box { .. } => 1.0,
+            WayKind::Line | WayKind::Curve { .. } | WayKind::Stated(_) => 0.5,
+            WayKind::Box { .. } => 1.0,
         }
     }
 

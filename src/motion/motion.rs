@@ -133,16 +133,8 @@ impl QueryContext {
         q1: &[f64],
         options: &MotionOptions,
     ) -> Result<MotionAnswer> {
-        let v = &checked_difference(cobject.space(), q0, q1)?;
-        cobject.space().check_velocity(v, "velocity")?;
         let world = &self.begin_motion(cobject, options)?;
-        let line = LinearMotion {
-            world,
-            cobject,
-            q: q0,
-            v,
-        };
-        self.sampled_or_proved(&Way::straight_to(line, q1), options)
+        self.motion_between_in(world, cobject, [q0, q1], options)
     }
 
     /// The same in a given world, with checked options.

@@ -1,10 +1,8 @@
 //! Paths made shorter by proofs (Geraerts and Overmars 2007 compare such methods): a straight motion that is proved free replaces the part
 //! of a path between two places on it.
 
-use super::linear_motion::LinearMotion;
 use super::motion::{MotionOptions, MotionOutcome};
 use super::path::{Path, PathAnswer, checked_count};
-use super::way::Way;
 use crate::cobject::CObject;
 use crate::error::{ErrorKind, Result};
 use crate::query::{QueryContext, World};
@@ -267,15 +265,7 @@ impl QueryContext {
         if from == to {
             return Ok(true);
         }
-        let v = &cobject.space().difference(from, to);
-        let line = LinearMotion {
-            world,
-            cobject,
-            q: from,
-            v,
-        };
-        let way = Way::straight_to(line, to);
-        let answer = self.sampled_or_proved(&way, options)?;
+        let answer = self.motion_between_in(world, cobject, [from, to], options)?;
         if answer.outcome == MotionOutcome::Undecided {
             self.scratch.meter().check()?;
         }

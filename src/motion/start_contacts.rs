@@ -94,9 +94,10 @@ struct Separation {
 }
 
 impl Separation {
-    /// Whether the plane separates the two during the whole motion.
-    fn lasts(&self) -> bool {
-        self.gap > 0.0 && STEP_FRACTION * self.gap >= self.rate
+    /// Whether the plane separates the two during the whole motion, by more than where they count as touching: the gap has no rounding of
+    /// where links are on the way.
+    fn lasts(&self, touching: f64) -> bool {
+        self.gap > touching && STEP_FRACTION * self.gap >= self.rate
     }
 }
 
@@ -231,11 +232,12 @@ impl Near<'_> {
             return Ok(Some(0.0));
         }
         let plane = obstacle.separation(context, motion, start);
-        if plane.as_ref().is_some_and(Separation::lasts) {
+        let touching = obstacle.touching();
+        if plane.as_ref().is_some_and(|plane| plane.lasts(touching)) {
             let stays = lower <= 0.0 || self.is_apart_at(context, obstacle, 1.0)?;
             return Ok(stays.then_some(1.0));
         }
-        if lower > obstacle.touching() {
+        if lower > touching {
             return Ok(Some(0.0));
         }
         // A link that does not move towards a separating plane cannot come nearer, however far it slides.

@@ -3,7 +3,7 @@
 use super::hit::Hit;
 use super::pairing::Pairing;
 use super::singles::{SinglesNearest, is_within};
-use crate::convex::{Contact, beyond_radii, mode_of};
+use crate::convex::{Contact, beyond_radii, middle_of_overlap, mode_of};
 use crate::pose::Vec3;
 use crate::primitive::Feature;
 
@@ -62,8 +62,7 @@ impl ClosedCores<'_> {
         let points = if apart >= a + b {
             pairing.points_in_world(&[on_a - way * a, on_b + way * b])
         } else {
-            // The middle of the overlap along the line between the cores.
-            let middle = 0.5 * ((apart - b).max(0.0) + a.min(apart));
+            let middle = middle_of_overlap(apart, [a, b]);
             [pairing.frame.transform_point(&(on_a - way * middle)); 2]
         };
         let distance = pairing.above_error(self.distance());

@@ -9,7 +9,7 @@ use crate::gjk::Support;
 use crate::hierarchy::packed::PackedPrimitives;
 use crate::lanes::{F64x4, Instructions, Points64};
 use crate::pose::{Pose, Rows, Vec3, turned_back};
-use crate::primitive::{Form, Primitive, SmoothKind};
+use crate::primitive::{Form, Primitive};
 use crate::relative_pose::{centered, relative_centered, relative_of};
 use crate::tolerance;
 
@@ -112,7 +112,7 @@ impl<'a> Pairing<'a> {
         let (primitive, form) = at_place(of, of.only_place()?);
         let only = PlacedPrimitive::at_home(primitive, form);
         let is_fitted = match only.shape.smooth() {
-            Some(smooth) => matches!(smooth.kind, SmoothKind::Function(_)),
+            Some(_) => only.shape.is_function(),
             None => only.vertex_count() <= 2 || cuboid(&only).is_some(),
         };
         if is_fitted || self.precision.planar || only.shape.radius() != packed.core_radius() {

@@ -3,11 +3,10 @@
 use super::Scratch;
 use super::pair_distance::{PairDistance, PrimitiveScratch};
 use super::pairing::{EMPTY, Pairing};
-use crate::convex::{PlacedPrimitive, Sweep, first_contact, stays_apart_along};
+use crate::convex::{Sweep, first_contact, stays_apart_along};
 use crate::gjk::{DistanceLimits, gjk};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::{Vec3, turned, turned_back};
-use crate::primitive::SmoothKind;
 use crate::tolerance::EPSILON;
 
 /// What is asked of primitives over an interval.
@@ -241,15 +240,10 @@ impl Pairing<'_> {
     ) -> bool {
         let [a, b] = self.placed(places, &mut scratch.buffer);
         // What a function of the caller's calls farthest is so but for an error of its own.
-        if is_function(&a) || is_function(&b) {
+        if a.shape.is_function() || b.shape.is_function() {
             return false;
         }
         let direction = direction.normalize();
         stays_apart_along(&a, &b, &direction, sweep, needed)
     }
-}
-
-fn is_function(placed: &PlacedPrimitive) -> bool {
-    let smooth = placed.shape.smooth();
-    smooth.is_some_and(|smooth| matches!(smooth.kind, SmoothKind::Function(_)))
 }

@@ -62,10 +62,8 @@ impl Scratch {
 
     /// Counts a primitive pair whose distance is to be computed, and lends the memory for it.
     pub fn for_one_pair(&mut self) -> Result<&mut PrimitiveScratch> {
-        let meter = &mut self.state.meter;
-        meter.count_primitives(1);
-        meter.done.primitive_distances += 1;
-        meter.check()?;
+        self.count_primitive_pair();
+        self.state.meter.check()?;
         Ok(&mut self.state.primitives)
     }
 

@@ -2,7 +2,7 @@
 
 use smallvec::{SmallVec, smallvec};
 
-use super::{Curve, Feature, FeatureKind, SharedList, Smooth};
+use super::{Curve, Feature, FeatureKind, SharedList, Smooth, SmoothKind};
 use crate::gjk::{PointCloud, Support};
 use crate::pose::Vec3;
 
@@ -54,6 +54,12 @@ impl Convex {
     /// The smooth core, which is placed at the only vertex.
     pub fn smooth(&self) -> Option<&Smooth> {
         self.curve.as_ref().and_then(|curve| curve.smooth.as_ref())
+    }
+
+    /// Whether the core is known by a function of the caller's alone, whose farthest points have an error of their own.
+    pub fn is_function(&self) -> bool {
+        let smooth = self.smooth();
+        smooth.is_some_and(|smooth| matches!(smooth.kind, SmoothKind::Function(_)))
     }
 
     /// Points whose hull contains the set: the vertices, unless it is curved.

@@ -2,10 +2,10 @@
 
 use nalgebra::Vector2;
 
+use super::ear_clipping::triangulated;
 use super::planar_hull::plane_axes;
 use super::polygon::{check_convex_polygon, extent_of, newell_normal};
 use crate::error::{Error, ErrorKind, Result};
-use crate::parry_adapter::triangulate_simple_polygon;
 use crate::pose::Vec3;
 
 /// How a face is represented.
@@ -49,7 +49,7 @@ pub fn split_face(vertices: &[Vec3]) -> Result<FaceSplit> {
         .map(|v| (v - origin) / size)
         .map(|v| Vector2::new(x.dot(&v), y.dot(&v)))
         .collect();
-    let triangles = triangulate_simple_polygon(&flat).ok_or_else(crosses)?;
+    let triangles = triangulated(&flat).ok_or_else(crosses)?;
     let at = |i: u32| flat[i as usize];
     let area: f64 = (0..flat.len())
         .map(|i| flat[i].perp(&flat[(i + 1) % flat.len()]))

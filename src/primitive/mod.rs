@@ -4,6 +4,7 @@ mod convex;
 mod cuboid;
 mod curve;
 mod direction_cells;
+mod ear_clipping;
 mod faces;
 mod feature;
 mod form;

@@ -183,6 +183,7 @@ impl QueryContext {
         let request = WitnessRequest {
             counts_doubt: true,
             is_proved,
+            contacts: self.contacts,
             ..WitnessRequest::within(epsilon, max_count)
         };
         match query {

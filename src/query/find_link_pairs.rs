@@ -4,6 +4,7 @@
 use super::context::QueryContext;
 use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::robot::JointKind;
+use crate::room::room_for;
 use crate::space::{Sampler, Space};
 
 /// Options of the search for link pairs.
@@ -91,6 +92,9 @@ impl LinkPairOptions {
 /// The most samples accepted.
 const MAX_SAMPLES: usize = 1 << 30;
 
+/// So many pairs are looked at without asking whether to go on.
+const PAIRS_BETWEEN_ASKING: usize = 4096;
+
 impl QueryContext {
     /// Gives a verdict on all pairs of links with bodies, in order of their numbers. Coordinates without bounds stay at
     /// rest. `progress` receives the fraction done and may stop the work with an error.
@@ -111,21 +115,25 @@ impl QueryContext {
             }
             None => space.clamp(&space.neutral()),
         };
+        progress(0.0)?;
         let mut pairs = structure(space)?;
         let is_own =
             |pair: &LinkPair| space.robot_of(pair.links[0]) == space.robot_of(pair.links[1]);
-        self.touch(space, &rest, options.margin, &mut pairs, |pair| {
+        let ask = &mut || progress(0.0);
+        self.touch(space, &rest, options.margin, &mut pairs, ask, |pair| {
             if is_own(pair) {
                 pair.verdict = PairVerdict::AtRest;
             }
         })?;
         let mut sampler = Sampler(options.seed);
         for sample in 0..options.samples {
+            let done = sample as f64 / options.samples as f64;
             if sample % 64 == 0 {
-                progress(sample as f64 / options.samples as f64)?;
+                progress(done)?;
             }
             let q = space.sample_beside(&mut sampler, &rest);
-            self.touch(space, &q, options.margin, &mut pairs, |pair| {
+            let ask = &mut || progress(done);
+            self.touch(space, &q, options.margin, &mut pairs, ask, |pair| {
                 pair.share += 1.0
             })?;
         }
@@ -143,17 +151,23 @@ impl QueryContext {
         Ok(pairs)
     }
 
-    /// Calls `on_touch` for each pair with verdict `Test` that touches at q.
+    /// Calls `on_touch` for each pair with verdict `Test` that touches at q. `ask`, which may stop the work with an error, is asked
+    /// after every so many pairs.
     fn touch(
         &mut self,
         space: &Space,
         q: &[f64],
         margin: f64,
         pairs: &mut [LinkPair],
+        ask: &mut dyn FnMut() -> Result<()>,
         mut on_touch: impl FnMut(&mut LinkPair),
     ) -> Result<()> {
         let poses = space.link_poses(q)?;
-        for pair in pairs.iter_mut().filter(|p| p.verdict == PairVerdict::Test) {
+        let tested = pairs.iter_mut().filter(|p| p.verdict == PairVerdict::Test);
+        for (number, pair) in (1..).zip(tested) {
+            if number % PAIRS_BETWEEN_ASKING == 0 {
+                ask()?;
+            }
             let [a, b] = pair
                 .links
                 .map(|link| space.link(link).and_then(|l| l.body.as_deref()));
@@ -224,5 +238,7 @@ fn structure(space: &Space) -> Result<Vec<LinkPair>> {
             share: 0.0,
         })
     });
-    Ok(pairs.collect())
+    let mut all = room_for(links.len() * (links.len() - 1) / 2)?;
+    all.extend(pairs);
+    Ok(all)
 }

@@ -69,6 +69,9 @@ struct Measured {
     row: Vec<f64>,
 }
 
+/// So many pairs are measured before the list is cut to those asked for.
+const MIN_KEPT: usize = 64;
+
 /// Contacts whose distances differ by less than this, times the pair's size, are equally near.
 const EQUALLY_NEAR: f64 = 1e-10;
 
@@ -117,23 +120,27 @@ impl QueryContext {
         let filter = CandidateFilter::within(max_distance);
         let candidates = self.candidates(scene, scene.checked(group)?, filter)?;
         let mut found = Vec::new();
+        let (mut truncated, mut limit) = (false, max_distance);
         for target in &candidates {
             let leaf = group[target.term as usize].leaf;
-            let measured = self.signed_distance(scene, target, leaf, max_distance, options)?;
+            let measured = self.signed_distance(scene, target, leaf, limit, options)?;
             found.extend(measured.map(|measured| (target.rank, measured)));
+            // What is too far down is not kept, and what is beyond all that are listed is not measured.
+            if found.len() > MIN_KEPT.max(max_count.saturating_mul(2)) {
+                truncated |= trim(&mut found, max_count);
+                let farthest = found.last().map(|(_, last)| last.pair.distance);
+                limit = farthest.map_or(limit, |distance| limit.min(distance.max(0.0)));
+            }
         }
         self.keep_memory(candidates);
-        found.sort_by(|(rank_a, a), (rank_b, b)| {
-            let by_distance = a.pair.distance.total_cmp(&b.pair.distance);
-            by_distance.then(rank_a.cmp(rank_b))
-        });
+        truncated |= trim(&mut found, max_count);
         let mut list = SignedDistanceList {
             nv: scene.space().nv(),
-            truncated: found.len() > max_count,
+            truncated,
             version: scene.version(),
             ..Default::default()
         };
-        for (_, measured) in found.into_iter().take(max_count) {
+        for (_, measured) in found {
             list.pairs.push(measured.pair);
             list.gradients.extend(measured.row);
         }
@@ -252,6 +259,17 @@ impl QueryContext {
             },
         })
     }
+}
+
+/// Sorts pairs by distance and rank, and cuts them to as many as are asked for. Whether any are left out.
+fn trim<R: Ord>(found: &mut Vec<(R, Measured)>, max_count: usize) -> bool {
+    found.sort_by(|(rank_a, a), (rank_b, b)| {
+        let by_distance = a.pair.distance.total_cmp(&b.pair.distance);
+        by_distance.then(rank_a.cmp(rank_b))
+    });
+    let is_cut = found.len() > max_count;
+    found.truncate(max_count);
+    is_cut
 }
 
 /// The same pair, measured without a margin: within a margin the nearest primitives are not looked for.

@@ -233,3 +233,23 @@ fn of_many_writers_one_wins_whole() {
     });
     assert_eq!(folder.names(), ["body"]);
 }
+
+/// Keywords of any case; and nothing behind the numbers.
+#[test]
+fn ascii_stl_is_read_whole_or_not() {
+    let folder = Folder::new("stl");
+    let facet = |first: &str| {
+        format!(
+            "SOLID it\n FACET NORMAL 0 0 1\n OUTER LOOP\n VERTEX {first}\n VERTEX 1 0 0\n VERTEX 0 1 0\n ENDLOOP\n ENDFACET\nENDSOLID it\n"
+        )
+    };
+    let path = folder.path("upper.stl");
+    fs::write(&path, facet("0 0 0")).unwrap();
+    assert_eq!(read_mesh_file(&path).unwrap().face_sizes, [3]);
+    for damaged in ["0 0 0 0", "0 0 0 more", "0 0 x", "0 0"] {
+        fs::write(&path, facet(damaged)).unwrap();
+        let error = read_mesh_file(&path).unwrap_err();
+        assert_eq!(error.kind, ErrorKind::Parse);
+        assert!(error.message.contains("line 4"), "{error}");
+    }
+}

@@ -1,11 +1,12 @@
 //! Explanations at the edge of contact: a class that doubt within rounding makes comes with the pair that made it.
 
 use cstk::cobject::{Class, InducedOptions};
-use cstk::query::{Configuration, QueryContext};
+use cstk::pose::Pose;
+use cstk::query::{Configuration, ContactsListed, QueryContext};
 
 use helpers::random::Random;
 use helpers::robots::{against_with, environment, free_body, space};
-use helpers::shapes::{Shape, hull, mesh};
+use helpers::shapes::{Shape, cuboid, hull, mesh};
 
 fn shape(random: &mut Random) -> Shape {
     match random.below(3) {
@@ -60,4 +61,30 @@ fn contact_and_inside_always_come_with_a_witness() {
         }
     }
     assert!(by_doubt > 300, "{by_doubt}");
+}
+
+/// Of contacts that are not asked for, explanations have none.
+#[test]
+fn explanations_have_the_contacts_asked_for() {
+    let [a, b] = [cuboid([1.0; 3]), cuboid([1.0; 3])];
+    let space = space(vec![free_body(&a.body)]);
+    let (environment, _) = environment(&[(&b.body, Pose::identity())]);
+    let options = InducedOptions {
+        margin: 0.0,
+        contact_epsilon: 0.1,
+    };
+    let cobject = against_with(&space, &environment, options);
+    let q = [1.05, 0.3, 0.2, 0.0, 0.0, 0.0];
+    let contacts = |listed: ContactsListed| {
+        let mut query = QueryContext::new();
+        query.set_contacts(listed);
+        let explained = query
+            .explain(&cobject, Configuration::Coordinates(&q), 9)
+            .unwrap();
+        assert_eq!(explained.class, Class::Contact);
+        assert_eq!(explained.list.witnesses.len(), 1);
+        explained.list.contacts.len()
+    };
+    assert_eq!(contacts(ContactsListed::None), 0);
+    assert!(contacts(ContactsListed::All) > 0);
 }

@@ -141,3 +141,40 @@ fn surfaces_in_each_other_have_no_depth() {
     assert_eq!(list.pairs[0].lower, f64::NEG_INFINITY);
     assert!(list.gradients.iter().all(|x| *x == 0.0));
 }
+
+/// A short list is the beginning of the whole one, though what is farther is cut while it is made.
+#[test]
+fn short_lists_begin_the_whole_one() {
+    let mut random = Random::new(91);
+    let bodies: Vec<_> = (0..200)
+        .map(|_| (hull(&random.points(8, 0.3)).body, random.pose(1.5)))
+        .collect();
+    let objects: Vec<_> = bodies.iter().map(|(body, pose)| (body, *pose)).collect();
+    let objects = environment(&objects);
+    let body = hull(&random.points(8, 0.4)).body;
+    let cobject = against(&space(vec![free_body(&body)]), &objects.0);
+    let options = DepthOptions::default();
+    for _ in 0..10 {
+        let q: Vec<f64> = (0..6).map(|_| random.within(-0.5, 0.5)).collect();
+        let list = |count: usize| {
+            let mut query = QueryContext::new();
+            query
+                .signed_distances(&cobject, &q, 5.0, count, &options)
+                .unwrap()
+        };
+        let whole = list(1000);
+        assert!(whole.pairs.len() == 200 && !whole.truncated);
+        for count in [0, 1, 5, 40, 199, 200] {
+            let short = list(count);
+            assert_eq!(short.truncated, count < 200);
+            assert_eq!(short.pairs.len(), count);
+            for (a, b) in short.pairs.iter().zip(&whole.pairs) {
+                assert_eq!(
+                    (a.distance, a.lower, a.upper),
+                    (b.distance, b.lower, b.upper)
+                );
+            }
+            assert_eq!(short.gradients, whole.gradients[..6 * count]);
+        }
+    }
+}

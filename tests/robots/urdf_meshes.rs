@@ -82,6 +82,39 @@ fn a_collada_scene_is_read_with_its_transforms() {
     );
 }
 
+/// What stands between numbers, and parameters without a name, change nothing.
+#[test]
+fn comments_and_unnamed_parameters_are_passed_over() {
+    let folder = Folder::new("comments");
+    let read = |text: &str| {
+        let path = folder.write("scene.dae", text);
+        cstk::body::mesh_file::read_mesh_file(&path)
+    };
+    let plain = read(SCENE_DAE).unwrap();
+    let commented = SCENE_DAE
+        .replace(
+            "<p>0 1 2<",
+            "<p><!-- first -->0 1<?and then?> 2<!-- last --><",
+        )
+        .replace("9 1 9 2", "9 1 <!-- half --> 9 2")
+        .replace("1 0 0  1 1 0", "1 0 0 <!-- c --> 1 1 0")
+        .replace("<vcount>4", "<vcount><!-- a quad -->4")
+        .replace("<scale>2 1 1", "<scale>2 <!-- x --> 1 1")
+        .replace("0 1 0 0  0 0 1 1", "0 1 0 0 <!-- lifted --> 0 0 1 1");
+    let padded = SCENE_DAE
+        .replace("0 0 0  1 0 0  1 1 0  0 1 0<", "9 0 0 0  9 1 0 0  9 1 1 0  9 0 1 0<")
+        .replace("count=\"4\" stride=\"3\"/>", "count=\"4\" stride=\"4\"><param type=\"float\"/><param name=\"X\"/><param name=\"Y\"/><param name=\"Z\"/></accessor>");
+    for text in [commented, padded.clone()] {
+        let mesh = read(&text).unwrap();
+        assert_eq!(mesh.face_sizes, plain.face_sizes);
+        assert_eq!(mesh.indices, plain.indices);
+        assert_eq!(mesh.vertices, plain.vertices);
+    }
+    let flat = read(&padded.replace("<param name=\"Z\"/>", "")).unwrap_err();
+    assert_eq!(flat.kind, ErrorKind::Parse);
+    assert!(flat.message.contains("three coordinates"), "{flat}");
+}
+
 /// Parts that a node, or the scale of a URDF's mesh, mirrors keep their outside: a closed part would be inside out otherwise, and where
 /// it overlaps another the two would count as outside.
 #[test]

@@ -14,7 +14,7 @@ use crate::body::{Mesh, MeshBudget, MeshSize, require_mesh_size, reverse_faces};
 use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::pose::Vec3;
 use crate::whole_file::text_of;
-use crate::xml::{child, children, fault, list, numbers, parse, required, required_child};
+use crate::xml::{child, children, fault, list, numbers, parse, required, required_child, text_in};
 
 /// The deepest nesting of scene nodes; refuses nodes that instance themselves.
 const MAX_DEPTH: usize = 64;
@@ -247,7 +247,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             let first = own.indices.len();
             let mut runs = Vec::new();
             for p in children(element, "p") {
-                let run = list::<u32>(p, "index", p.text().unwrap_or_default())?;
+                let run = list::<u32>(p, "index", &text_in(p))?;
                 runs.push(corners(p, run, offset, stride, positions.len())?);
             }
             add_faces(element, &runs, &mut own)?;
@@ -281,7 +281,7 @@ impl<'a, 'i> Reader<'a, 'i> {
 
 fn read_positions(source: Node) -> Result<Vec<Vec3>> {
     let array = required_child(source, "float_array")?;
-    let numbers = list::<f64>(array, "coordinate", array.text().unwrap_or_default())?;
+    let numbers = list::<f64>(array, "coordinate", &text_in(array))?;
     require_finite(&numbers, "coordinate").map_err(|e| fault(array, e.kind, e.message))?;
     let accessor = child(source, "technique_common").and_then(|t| child(t, "accessor"));
     let number =
@@ -296,13 +296,11 @@ fn read_positions(source: Node) -> Result<Vec<Vec3>> {
             }),
         };
     let (stride, first) = (number("stride", 3)?, number("offset", 0)?);
-    if stride < 3 {
-        return Err(fault(
-            source,
-            ErrorKind::Parse,
-            "positions need three coordinates",
-        ));
-    }
+    let places = coordinate_places(accessor).filter(|places| places.iter().all(|&k| k < stride));
+    let Some([x, y, z]) = places else {
+        let message = "positions need three coordinates";
+        return Err(fault(source, ErrorKind::Parse, message));
+    };
     let numbers = numbers.get(first..).ok_or_else(|| {
         fault(
             source,
@@ -310,8 +308,28 @@ fn read_positions(source: Node) -> Result<Vec<Vec3>> {
             "its accessor begins beyond its numbers",
         )
     })?;
-    let whole = numbers.chunks(stride).filter(|point| point.len() >= 3);
-    Ok(whole.map(|p| Vec3::new(p[0], p[1], p[2])).collect())
+    let needed = x.max(y).max(z) + 1;
+    let whole = numbers.chunks(stride).filter(|point| point.len() >= needed);
+    Ok(whole.map(|p| Vec3::new(p[x], p[y], p[z])).collect())
+}
+
+/// Where in a stride the three coordinates are: parameters without a name are passed over, unless none has one.
+fn coordinate_places(accessor: Option<Node>) -> Option<[usize; 3]> {
+    let parameters = accessor.into_iter().flat_map(|a| children(a, "param"));
+    let named: Vec<usize> = parameters
+        .enumerate()
+        .filter(|(_, parameter)| {
+            parameter
+                .attribute("name")
+                .is_some_and(|name| !name.is_empty())
+        })
+        .map(|(place, _)| place)
+        .collect();
+    match named[..] {
+        [] => Some([0, 1, 2]),
+        [x, y, z, ..] => Some([x, y, z]),
+        _ => None,
+    }
 }
 
 /// The vertex indices among the indices of a <p>.
@@ -375,7 +393,7 @@ fn add_faces(element: Node, runs: &[Vec<u32>], mesh: &mut Mesh) -> Result<()> {
             let all = runs.concat();
             let mut rest = &all[..];
             let sizes = required_child(element, "vcount")?;
-            for size in list::<u32>(sizes, "vcount", sizes.text().unwrap_or_default())? {
+            for size in list::<u32>(sizes, "vcount", &text_in(sizes))? {
                 let (face, after) = rest.split_at_checked(size as usize).ok_or_else(|| {
                     fault(
                         sizes,
@@ -416,7 +434,7 @@ fn add_faces(element: Node, runs: &[Vec<u32>], mesh: &mut Mesh) -> Result<()> {
 
 /// The matrix of a transform element of a node; `None` for other elements.
 fn transform(element: Node) -> Result<Option<Matrix4<f64>>> {
-    let text = element.text().unwrap_or_default();
+    let text = &text_in(element);
     let name = element.tag_name().name();
     Ok(Some(match name {
         "matrix" => {

@@ -22,7 +22,8 @@ pub fn parse_stl(bytes: &[u8]) -> Result<Mesh> {
         MeshBudget::default().take(size, false)?;
         return Ok(binary_stl(&bytes[84..]));
     }
-    if !bytes.trim_ascii_start().starts_with(b"solid") {
+    let first = bytes.trim_ascii_start().get(..5);
+    if !first.is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) {
         return Err(Error::new(
             ErrorKind::Parse,
             format!(
@@ -103,10 +104,10 @@ fn ascii_stl(text: &str) -> Result<Mesh> {
             ("facet", None) => corners = Some(0),
             ("outer" | "endloop", Some(_)) => {}
             ("vertex", Some(count)) => {
-                let numbers: Vec<f64> = words.map_while(|word| word.parse().ok()).collect();
+                let numbers: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
                 let vertex: [f64; 3] = numbers
-                    .try_into()
-                    .map_err(|_| stopped(number, "a vertex needs three numbers"))?;
+                    .and_then(|numbers| numbers.try_into().ok())
+                    .ok_or_else(|| stopped(number, "a vertex needs three numbers"))?;
                 require_finite(&vertex, "coordinate")
                     .map_err(|e| e.within(format_args!("line {number}")))?;
                 soup.add_vertex(vertex);

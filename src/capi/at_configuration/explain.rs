@@ -6,7 +6,8 @@ use crate::capi::at_configuration::answers::{cstk_class, cstk_witness_list};
 use crate::capi::at_configuration::questions::{StateInput, run_at};
 use crate::capi::boundary::Failure;
 use crate::capi::cobject::cobject::cstk_cobject;
-use crate::capi::query::{State, cstk_query, refill, start};
+use crate::capi::input::start;
+use crate::capi::query::{State, cstk_query, refill};
 use crate::capi::status::status::cstk_status;
 use crate::capi::user_data::address;
 use crate::cobject::CObject;
@@ -87,7 +88,7 @@ fn explain(
     })
 }
 
-/// Writes the class of q as cstk_classify does, and what decides it: the leaves of the C-object, and at most `max_count`
+/// Writes the class of q as cstk_classify does without refinement, and what decides it: the leaves of the C-object, and at most `max_count`
 /// primitive pairs (§2.2.4, operations 4 and 5). Slower than cstk_classify, since every leaf is tested. `q` has `nq`
 /// doubles.
 #[unsafe(no_mangle)]

@@ -4,8 +4,8 @@ use std::ffi::c_void;
 
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::handle;
-use crate::capi::input::{OptionsStruct, Output, options_or_default, slice, write_defaults};
-use crate::capi::query::{cstk_query, start, with_query};
+use crate::capi::input::{OptionsStruct, Output, options_or_default, slice, start, write_defaults};
+use crate::capi::query::{cstk_query, with_query};
 use crate::capi::space::space::cstk_space;
 use crate::capi::status::callbacks::{cstk_progress_fn, reporter};
 use crate::capi::status::status::cstk_status;

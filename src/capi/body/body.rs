@@ -121,7 +121,7 @@ pub unsafe extern "C" fn cstk_body_release(body: *mut cstk_body) -> cstk_status 
 
 /// Attaches user data to a body, however it was created (§2.2.3). Witnesses return it: as `r_data` for a link's body, and
 /// as `s_data` for the body of a link or of an s-object without its own data. A second call for the same body is
-/// CSTK_ERROR_INVALID_ARGUMENT. `destroy` may be NULL; it is called once, by the thread that drops the last reference to
+/// CSTK_ERROR_INVALID_ARGUMENT; one with NULL for both attaches nothing and is no call in this sense. `destroy` may be NULL; it is called once, by the thread that drops the last reference to
 /// the body, and not if this call fails. Other threads may query the body meanwhile.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_set_data(

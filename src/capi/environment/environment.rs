@@ -173,10 +173,20 @@ pub unsafe extern "C" fn cstk_environment_apply(
             let _ = unsafe { options_in_place(changes, "changes[0]")? };
         }
         let (mut read, mut kept) = (reserved(count, "changes")?, Vec::new());
-        let mut next = changes;
+        let (mut next, mut first_size) = (changes, None);
         for i in 0..count {
             // SAFETY: checked for size and cookie; the caller states that `count` of them follow one another.
             let change = unsafe { options_in_place(next, format_args!("changes[{i}]"))? };
+            let size = *first_size.get_or_insert(change.size);
+            if change.size != size {
+                return Err(Failure::new(
+                    cstk_status::CSTK_ERROR_WRONG_SIZE,
+                    format!(
+                        "changes[{i}].size is {}, that of changes[0] is {size}",
+                        change.size
+                    ),
+                ));
+            }
             // SAFETY: checked for NULL; the header states the length.
             read.push(unsafe { change_from(&change, i, &mut kept)? });
             next = next.wrapping_byte_add(change.size as usize);

@@ -9,7 +9,7 @@ use crate::capi::boundary::guard;
 use crate::capi::handle;
 use crate::capi::handle::Noun;
 use crate::capi::hierarchy::options::cstk_wrapper_kind;
-use crate::capi::input::{Output, OutputSlice, path, slice};
+use crate::capi::input::{Output, OutputSlice, path, slice, start};
 use crate::capi::status::status::cstk_status;
 use crate::error::{Error, ErrorKind};
 use crate::hierarchy::Node;
@@ -360,12 +360,12 @@ pub unsafe extern "C" fn cstk_mesh_get_view(
         let mesh = &*handle::share::<Mesh>(mesh, "mesh")?;
         let out = Output::checked(out, "out")?;
         out.write(cstk_mesh_view {
-            vertices: mesh.xyz.as_ptr(),
+            vertices: start(&mesh.xyz),
             vertex_count: mesh.xyz.len() / 3,
-            face_sizes: mesh.face_sizes.as_ptr(),
-            face_nodes: mesh.face_nodes.as_ptr(),
+            face_sizes: start(&mesh.face_sizes),
+            face_nodes: start(&mesh.face_nodes),
             face_count: mesh.face_sizes.len(),
-            indices: mesh.indices.as_ptr(),
+            indices: start(&mesh.indices),
             index_count: mesh.indices.len(),
             reserved: [0; 4],
         });

@@ -4,7 +4,7 @@ use std::ffi::c_char;
 
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::handle;
-use crate::capi::input::{Output, OutputSlice, slice, text};
+use crate::capi::input::{Output, OutputSlice, slice, start, text};
 use crate::capi::robot::joint::cstk_joint_kind;
 use crate::capi::robot::robot::cstk_robot;
 use crate::capi::status::status::cstk_status;
@@ -104,7 +104,7 @@ pub unsafe extern "C" fn cstk_robot_get_semantics(
             state_count: semantics.states.len() as u32,
             end_effector_count: semantics.end_effectors.len() as u32,
             virtual_joint_count: semantics.virtual_joints.len() as u32,
-            passive_joints: semantics.passive_joints.as_ptr(),
+            passive_joints: start(&semantics.passive_joints),
             passive_joint_count: semantics.passive_joints.len(),
             reserved: [0; 4],
         });
@@ -201,9 +201,9 @@ pub unsafe extern "C" fn cstk_robot_get_group(
         let found = at(&robot.semantics().groups, group, "group")?;
         out.write(cstk_joint_group {
             name: found.name.as_c_str().as_ptr(),
-            joints: found.joints.as_ptr(),
+            joints: start(&found.joints),
             joint_count: found.joints.len(),
-            coordinates: found.coordinates.as_ptr(),
+            coordinates: start(&found.coordinates),
             coordinate_count: found.coordinates.len(),
             reserved: [0; 4],
         });
@@ -226,8 +226,8 @@ pub unsafe extern "C" fn cstk_robot_get_state(
             name: found.name.as_c_str().as_ptr(),
             group: found.group.map_or(-1, |group| group as i32),
             reserved_number: 0,
-            coordinates: found.coordinates.as_ptr(),
-            values: found.values.as_ptr(),
+            coordinates: start(&found.coordinates),
+            values: start(&found.values),
             count: found.values.len(),
             reserved: [0; 4],
         });
@@ -280,7 +280,7 @@ pub unsafe extern "C" fn cstk_robot_get_end_effector(
             parent_group: found.parent_group.map_or(-1, |group| group as i32),
             parent_link: found.parent_link,
             reserved_number: 0,
-            touch_links: found.touch_links.as_ptr(),
+            touch_links: start(&found.touch_links),
             touch_count: found.touch_links.len(),
             reserved: [0; 4],
         });

@@ -4,7 +4,8 @@ use std::ffi::c_void;
 
 use crate::error::{Error, ErrorKind};
 
-/// Releases user data: called once, when nothing refers to them any more. It may call the library.
+/// Releases user data: called once, when nothing refers to them any more. It may call the
+/// library; it must not throw.
 pub type cstk_destroy_fn = Option<unsafe extern "C" fn(user: *mut c_void)>;
 
 /// Receives the progress of a long call, from 0 to 1. Anything but 0 (CSTK_OK) ends the call with CSTK_ERROR_CANCELLED. It
