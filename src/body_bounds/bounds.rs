@@ -21,8 +21,8 @@ pub struct Bounds {
     pub half: Vec3,
     /// An upper bound of the distance of the box's corners from its centre.
     pub box_radius: f64,
-    /// How far the body may be from what it stands for: the largest deviation of its primitives from their features, and the one
-    /// that was stated (see `Body::deviation`).
+    /// How far the body may be from what it stands for: the largest deviation of its primitives from their features (`Body::deviation`), and
+    /// the one that was stated (`Body::stated_deviation`).
     pub deviation: f64,
     /// An upper bound of the coordinates in the computation, to which the rounding is proportional.
     pub largest_coordinate: f64,

@@ -31,7 +31,7 @@ pub struct FrameLimits {
     pub size: f64,
     /// An upper bound of the coordinates in the world.
     pub largest_coordinate: f64,
-    /// The largest deviation of a body from its primitives.
+    /// The largest deviation of a body, with the one that was stated.
     pub deviation: f64,
 }
 

@@ -10,6 +10,7 @@ use super::spans::{Span, largest, measure_of, slopes_of, span};
 use super::world_place::{beyond_world, largest_coordinate_of, over_floor, stated_deviation_of};
 use super::{Class, Measure, PureSet, PureShape, SpaceState, WorldPlace};
 use crate::error::{Error, ErrorKind, Result};
+use crate::nonzero::length;
 use crate::robot::{Coordinate, RobotState};
 use crate::space::Space;
 use crate::tolerance::{DISTANCE_ERROR, EPSILON, LARGEST_COORDINATE};
@@ -183,7 +184,7 @@ impl PureSet {
             }
             PureShape::Ball { center, .. } => {
                 let offset = space.offset(center, q);
-                let length = norm(&offset);
+                let length = length(&offset);
                 let mut row = space.offset_as_velocity(q, &offset);
                 // At the centre all directions out are equal: the gradient is 0.
                 let factor = if length > 0.0 { 1.0 / length } else { 0.0 };
@@ -206,7 +207,7 @@ impl PureSet {
             }
             PureShape::Box { .. } => measure_of(self.spans(space, q)),
             PureShape::HalfSpace { normal, offset, .. } => {
-                let length = norm(normal);
+                let length = length(normal);
                 let terms = || normal.iter().zip(q).map(|(n, x)| n / length * x);
                 let signed = terms().sum::<f64>() - offset / length;
                 let size = terms().map(f64::abs).sum::<f64>() + (offset / length).abs();
@@ -218,7 +219,7 @@ impl PureSet {
                 let sizes = center.iter().chain(q).map(|x| x.abs());
                 let size = sizes.fold(TAU.max(*radius), f64::max);
                 let error = 8.0 * (q.len() as f64).sqrt() * EPSILON * size;
-                (norm(&offset) - radius, error)
+                (length(&offset) - radius, error)
             }
             PureShape::BeyondWorld { .. } | PureShape::Floor { .. } | PureShape::Predicate(_) => {
                 (f64::INFINITY, 0.0)
@@ -235,7 +236,7 @@ impl PureSet {
             }
             PureShape::Box { .. } => slopes_of(self.spans(space, q), q.len()),
             PureShape::HalfSpace { normal, .. } => {
-                let length = norm(normal);
+                let length = length(normal);
                 normal.iter().map(|x| x / length).collect()
             }
             _ => Vec::new(),
@@ -304,12 +305,4 @@ impl PureSet {
             ),
         ))
     }
-}
-
-fn norm(v: &[f64]) -> f64 {
-    let largest = v.iter().fold(0.0f64, |most, x| most.max(x.abs()));
-    if largest == 0.0 {
-        return 0.0;
-    }
-    largest * v.iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
 }

@@ -34,7 +34,7 @@ pub struct LikelyParts<'a> {
 }
 
 /// What a guess has proved.
-pub enum Proved {
+pub enum ByParts {
     /// The cores are farther apart than the cutoff.
     Beyond {
         /// A unit direction from B to A, and the gap along it.
@@ -50,10 +50,10 @@ pub enum Proved {
 }
 
 impl Work for LikelyParts<'_> {
-    type Output = Option<Proved>;
+    type Output = Option<ByParts>;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> Option<Proved> {
+    fn run<I: Instructions>(self, _: I) -> Option<ByParts> {
         let inner = [Inner::of(self.cores[0])?, Inner::of(self.cores[1])?];
         let (points, mut names) = match self.nearest_points(&inner) {
             ControlFlow::Continue(found) => found,
@@ -61,13 +61,13 @@ impl Work for LikelyParts<'_> {
         };
         let way = points[0] - points[1];
         if way.norm() <= self.limits.enough {
-            return Some(Proved::Within(points));
+            return Some(ByParts::Within(points));
         }
         let direction = way.try_normalize(0.0)?;
         let supports = self.supports(&direction);
         let gap = Self::gap_along(&direction, &supports);
         if gap > self.limits.cutoff {
-            return Some(Proved::Beyond { direction, gap });
+            return Some(ByParts::Beyond { direction, gap });
         }
         if gap <= self.least {
             return self.meeting_at(&supports, &inner);
@@ -81,7 +81,7 @@ impl Work for LikelyParts<'_> {
             }
         }
         let parts = NearestParts::new(self.cores, names, self.accepted)?;
-        Some(Proved::Near(parts.solve(&direction)?))
+        Some(ByParts::Near(parts.solve(&direction)?))
     }
 }
 
@@ -92,7 +92,7 @@ impl LikelyParts<'_> {
     fn nearest_points(
         &self,
         inner: &[Inner; 2],
-    ) -> ControlFlow<Option<Proved>, ([Vec3; 2], [Names; 2])> {
+    ) -> ControlFlow<Option<ByParts>, ([Vec3; 2], [Names; 2])> {
         let Some((mut points, first)) = between_inner(inner) else {
             return ControlFlow::Break(None);
         };
@@ -120,19 +120,19 @@ impl LikelyParts<'_> {
     /// Whether the direction between two points parts the cores by more than the cutoff, if there is one. Of many pairs whose distance is
     /// bounded most do.
     #[inline(always)]
-    fn beyond_cutoff(&self, points: &[Vec3; 2]) -> Option<Proved> {
+    fn beyond_cutoff(&self, points: &[Vec3; 2]) -> Option<ByParts> {
         let cutoff = self.limits.cutoff;
         if cutoff == f64::INFINITY {
             return None;
         }
         let direction = (points[0] - points[1]).try_normalize(0.0)?;
         let gap = Self::gap_along(&direction, &self.supports(&direction));
-        (gap > cutoff).then_some(Proved::Beyond { direction, gap })
+        (gap > cutoff).then_some(ByParts::Beyond { direction, gap })
     }
 
     /// Whether the cores meet where a support point of one is inside the other.
     #[inline(always)]
-    fn meeting_at(&self, supports: &[Vec3; 2], inner: &[Inner; 2]) -> Option<Proved> {
+    fn meeting_at(&self, supports: &[Vec3; 2], inner: &[Inner; 2]) -> Option<ByParts> {
         (0..2).find_map(|side| {
             let point = supports[1 - side];
             match inner[side].nearest(&point) {
@@ -143,8 +143,8 @@ impl LikelyParts<'_> {
     }
 
     #[inline(always)]
-    fn meeting(&self, point: Vec3, depth: f64) -> Option<Proved> {
-        (depth > self.deep).then_some(Proved::Meet { point, depth })
+    fn meeting(&self, point: Vec3, depth: f64) -> Option<ByParts> {
+        (depth > self.deep).then_some(ByParts::Meet { point, depth })
     }
 
     /// The support points of A and B towards each other, for a direction from B to A.

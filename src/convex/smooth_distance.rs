@@ -4,7 +4,7 @@ use super::beside_cylinder::{beside_cylinder, is_cylinder};
 use super::beyond::Beyond;
 use super::closest::{Closest, Segment, closest_parameters};
 use super::core::{Core, inside};
-use super::likely_parts::{LikelyParts, Proved};
+use super::likely_parts::{ByParts, LikelyParts};
 use super::nearest_parts::NearestParts;
 use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_smooth::point_to_smooth;
@@ -35,16 +35,16 @@ pub fn smooth_closest(
         return Ok(found);
     }
     let found = match likely([&core_a, &core_b], pair, limits) {
-        Some(Proved::Beyond { direction, gap }) => return Err(Beyond { direction, gap }),
-        Some(Proved::Within(points)) => return Ok(near_enough(points, Vec3::zeros())),
-        Some(Proved::Meet { point, depth }) => {
+        Some(ByParts::Beyond { direction, gap }) => return Err(Beyond { direction, gap }),
+        Some(ByParts::Within(points)) => return Ok(near_enough(points, Vec3::zeros())),
+        Some(ByParts::Meet { point, depth }) => {
             let closest = Closest {
                 depth,
                 ..Closest::meeting_at(point, [a, b].map(inside))
             };
             return Ok((closest, Vec3::zeros()));
         }
-        Some(Proved::Near(near)) => RefinedBounds::of_nearby(near),
+        Some(ByParts::Near(near)) => RefinedBounds::of_nearby(near),
         None => {
             // A start that depends on the two primitives alone, so that the answer does too.
             let start = a.middle() - b.middle();
@@ -79,7 +79,7 @@ pub fn smooth_closest(
 }
 
 /// What the parts that probably hold the closest points prove.
-fn likely(cores: [&Core; 2], pair: &Precision, limits: DistanceLimits) -> Option<Proved> {
+fn likely(cores: [&Core; 2], pair: &Precision, limits: DistanceLimits) -> Option<ByParts> {
     let least = tolerance::SUPPORT_ERROR * pair.size;
     let threshold = limits.by_more_than(tolerance::SMOOTH_ERROR * pair.size);
     let limits = threshold.unwrap_or(DistanceLimits {
@@ -339,12 +339,12 @@ mod tests {
                 };
                 guessed += usize::from(is_clear && kinds[1] != 5);
                 match proved {
-                    Proved::Near(near) => {
+                    ByParts::Near(near) => {
                         let distance = (near.points[0] - near.points[1]).norm();
                         let off = (distance - found.upper).abs().max(distance - near.lower);
                         assert!(off <= 1e-13 * pair.size, "{distance} {found:?}");
                     }
-                    Proved::Meet { point, depth } => {
+                    ByParts::Meet { point, depth } => {
                         assert!(found.upper <= 1e-14 * pair.size, "{depth} {found:?}");
                         for core in &cores {
                             let away = Vec3::from(random.point(1.0)).normalize();
@@ -352,7 +352,7 @@ mod tests {
                             assert!(over > -1e-14 * pair.size, "{over}");
                         }
                     }
-                    Proved::Beyond { .. } | Proved::Within(_) => panic!("nothing is asked"),
+                    ByParts::Beyond { .. } | ByParts::Within(_) => panic!("nothing is asked"),
                 }
             }
             let part = guessed as f64 / asked as f64;

@@ -19,18 +19,20 @@ pub struct TreeLimits {
 }
 
 impl TreeLimits {
-    /// The limits for a tree over some objects. Each limit is kept by 15 of 16 objects, and by others that are not [`FAR`] times
+    /// The limits for a tree over the objects in the world. Each limit is kept by 15 of 16 objects, and by others that are not [`FAR`] times
     /// farther out or twice as inaccurate.
     pub fn of(all: &Places) -> Self {
-        if all.len() == 0 {
+        let in_world = || all.iter().filter(|place| place.is_in_world());
+        let count = in_world().count();
+        if count == 0 {
             return Self::default();
         }
         let nth = |value: &dyn Fn(&Bounds) -> f64, n: usize| {
-            let mut values: Vec<f64> = all.iter().map(|place| value(&place.bounds)).collect();
+            let mut values: Vec<f64> = in_world().map(|place| value(&place.bounds)).collect();
             *values.select_nth_unstable_by(n, f64::total_cmp).1
         };
-        let rank = all.len() * 15 / 16;
-        let center = Vec3::from_fn(|k, _| nth(&|bounds| bounds.box_center[k], all.len() / 2));
+        let rank = count * 15 / 16;
+        let center = Vec3::from_fn(|k, _| nth(&|bounds| bounds.box_center[k], count / 2));
         let near = nth(&|bounds| farthest(bounds, &center), rank);
         Self::around(
             center,

@@ -87,6 +87,8 @@ impl Reader<'_> {
             inner: Vec::new(),
             joints: Vec::new(),
         };
+        // Those of chains are paid for before they are listed.
+        let mut of_chains = 0;
         for element in node.children().filter(Node::is_element) {
             match element.tag_name().name() {
                 "joint" => {
@@ -105,7 +107,9 @@ impl Reader<'_> {
                         let links = self.builder.links();
                         let steps = chain(links, [base, tip], *budget);
                         take(budget, element, steps.as_ref().map_or(usize::MAX, Vec::len))?;
-                        group.joints.extend(steps.unwrap_or_default());
+                        let steps = steps.unwrap_or_default();
+                        of_chains += steps.len();
+                        group.joints.extend(steps);
                     }
                 }
                 "group" => {
@@ -118,7 +122,7 @@ impl Reader<'_> {
                 _ => self.report.skipped_elements += 1,
             }
         }
-        take(budget, node, group.joints.len())?;
+        take(budget, node, group.joints.len() - of_chains)?;
         Ok(group)
     }
 }
