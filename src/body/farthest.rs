@@ -1,5 +1,7 @@
 //! The support point of a body along a direction.
 
+use smallvec::{SmallVec, smallvec};
+
 use super::body::Body;
 use crate::boxes::PackedBox;
 use crate::hierarchy::packed::NodeRef;
@@ -26,7 +28,7 @@ impl Body {
             primitive: u32::MAX,
             along: f64::NEG_INFINITY,
         };
-        let mut open = vec![(f64::INFINITY, tree.root())];
+        let mut open: SmallVec<[(f64, NodeRef); 64]> = smallvec![(f64::INFINITY, tree.root())];
         while let Some((bound, node)) = open.pop() {
             if bound < best.along {
                 continue;

@@ -51,6 +51,7 @@ fn with_octree(
 ) -> Result<(), Failure> {
     // A callback may release the caller's last reference meanwhile.
     let octree = handle::share::<SharedOctree>(octree, "octree")?;
+    // Cells and objects are changed wholly or not at all.
     exclusively(&octree.0, "the octree", |_| {}, action)
 }
 
@@ -213,13 +214,15 @@ pub unsafe extern "C" fn cstk_octree_get_cubes(
         with_octree(octree, |octree| {
             let room = OutputSlice::checked(cubes, max_count.saturating_mul(4), "cubes")?;
             let count = Output::checked(count, "count")?;
-            let all = octree.cubes();
-            let first = all.iter().take(max_count);
-            let numbers: Vec<f64> = first
-                .flat_map(|(low, edge)| [low.x, low.y, low.z, *edge])
-                .collect();
+            let (mut numbers, mut total) = (Vec::new(), 0);
+            octree.visit_cubes(&mut |low, edge| {
+                if total < max_count {
+                    numbers.extend([low.x, low.y, low.z, edge]);
+                }
+                total += 1;
+            });
             room.write(&numbers);
-            count.write(all.len());
+            count.write(total);
             Ok(())
         })
     })

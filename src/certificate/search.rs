@@ -34,7 +34,10 @@ type Searched<T> = std::result::Result<T, Stop>;
 
 impl From<Error> for Stop {
     fn from(error: Error) -> Self {
-        Self::Error(error)
+        match error.kind {
+            ErrorKind::Limit => Self::Exceeded,
+            _ => Self::Error(error),
+        }
     }
 }
 

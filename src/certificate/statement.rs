@@ -88,6 +88,7 @@ impl<'a> Statement<'a> {
             items: 0,
             sets: 0,
             places: HashMap::new(),
+            equal: HashMap::new(),
             statement: Self {
                 space: scene.space(),
                 claim: Claim::All(Vec::new()),
@@ -112,6 +113,8 @@ struct Builder<'a> {
     sets: u32,
     /// Of bodies by their serials.
     places: HashMap<u64, usize>,
+    /// Of bodies by their digests.
+    equal: HashMap<[u8; 32], usize>,
     statement: Statement<'a>,
 }
 
@@ -221,8 +224,7 @@ impl<'a> Builder<'a> {
         let Statement {
             bodies, digests, ..
         } = &mut self.statement;
-        let known = digests.iter().position(|known| *known == digest);
-        let place = known.unwrap_or_else(|| {
+        let place = *self.equal.entry(digest).or_insert_with(|| {
             bodies.push(body);
             digests.push(digest);
             bodies.len() - 1

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use super::spans::{Span, largest, measure_of, slopes_of, span};
 use super::world_place::{beyond_world, largest_coordinate_of, over_floor, stated_deviation_of};
-use super::{Class, Measure, PureSet, PureShape, SpaceState, WorldPlace};
+use super::{Class, Measure, Measured, PureSet, PureShape, SpaceState, WorldPlace};
 use crate::error::{Error, ErrorKind, Result};
 use crate::nonzero::length;
 use crate::robot::{Coordinate, RobotState};
@@ -23,13 +23,8 @@ impl PureSet {
             let class = predicate.classify(self.coordinates(at)?);
             return class.map_err(|e| self.named(e));
         }
-        let Some(measure) = self.unscaled(at)? else {
-            return Ok(Class::Outside);
-        };
-        if is_proved && measure.excess > 0.0 && measure.signed + measure.excess > -measure.error {
-            return Ok(Class::Outside);
-        }
-        Ok(measure.class(self.shape.is_open(), self.options.contact_epsilon))
+        let found = self.measured(at)?;
+        Ok(found.map_or(Class::Outside, |found| found.class(is_proved)))
     }
 
     /// The largest measure that classifies as contact, in the unit of measures. Infinite for predicates, which decide about
@@ -56,23 +51,13 @@ impl PureSet {
 
     /// The signed distance; `None` for a predicate that does not measure.
     pub fn measure(&self, at: &SpaceState) -> Result<Option<Measure>> {
-        let scale = self.scale();
-        let scaled = |x: f64| match x * scale {
-            // Scaling must not turn a nonzero distance into 0.
-            0.0 if x != 0.0 => f64::MIN_POSITIVE.copysign(x),
-            scaled => scaled,
-        };
-        let found = self.unscaled(at)?;
-        Ok(found.map(|found| Measure {
-            signed: scaled(found.signed),
-            error: found.error * scale,
-            excess: found.excess * scale,
-            ..found
-        }))
+        Ok(self.measured(at)?.map(|found| found.measure()))
     }
 
-    fn unscaled(&self, at: &SpaceState) -> Result<Option<Measure>> {
-        let found = match &self.shape {
+    /// Signed distance, class and place; `None` for a predicate that does not measure.
+    pub fn measured(&self, at: &SpaceState) -> Result<Option<Measured<'_>>> {
+        let (mut told, mut decides) = (None, None);
+        let unscaled = match &self.shape {
             PureShape::Predicate(predicate) => {
                 let q = self.coordinates(at)?;
                 let distance = predicate.distance(q).map_err(|e| self.named(e))?;
@@ -81,6 +66,7 @@ impl PureSet {
                 };
                 let class = predicate.classify(q).map_err(|e| self.named(e))?;
                 self.check_predicate(signed, class)?;
+                told = Some(class);
                 Measure {
                     signed,
                     error: 0.0,
@@ -95,6 +81,7 @@ impl PureSet {
                 offset,
             } => {
                 let (signed, place) = over_floor(at, links, normal, *offset);
+                decides = place;
                 let largest = links.iter().map(|&link| largest_coordinate_of(at, link));
                 Measure {
                     signed,
@@ -105,7 +92,8 @@ impl PureSet {
                 }
             }
             PureShape::BeyondWorld { links } => {
-                let (signed, _) = beyond_world(at, links);
+                let (signed, place) = beyond_world(at, links);
+                decides = place;
                 let size = links.iter().map(|&link| at.poses[link].translation.amax());
                 Measure {
                     signed,
@@ -127,11 +115,16 @@ impl PureSet {
                 }
             }
         };
-        Ok(Some(found))
+        Ok(Some(Measured {
+            set: self,
+            unscaled,
+            told,
+            place: decides,
+        }))
     }
 
     /// The link and the point that decide the measure; `None` for sets that are not in the world.
-    pub fn place(&self, at: &SpaceState) -> Option<WorldPlace> {
+    fn place(&self, at: &SpaceState) -> Option<WorldPlace> {
         match &self.shape {
             PureShape::BeyondWorld { links } => beyond_world(at, links).1,
             PureShape::Floor {

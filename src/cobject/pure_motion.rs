@@ -116,11 +116,7 @@ fn placements(space: &Space) -> impl Iterator<Item = &Block> {
 fn box_bound(space: &Space, is_bounded: impl Fn(usize) -> bool, v: &[f64]) -> f64 {
     let mut whole = 0.0;
     for block in space.blocks() {
-        let count = match block.kind {
-            BlockKind::Line => 1,
-            BlockKind::Rotation => 0,
-            BlockKind::Placement => 3,
-        };
+        let count = block.kind.lines();
         if (block.coordinate..block.coordinate + count).any(&is_bounded) {
             whole = length(&[whole, length(&v[block.velocity..block.velocity + count])]);
         }

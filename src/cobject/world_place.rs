@@ -69,13 +69,20 @@ pub(super) fn over_floor(
     let mut least = f64::INFINITY;
     let mut place = None;
     for &link in links {
-        let Some(body) = at.space.link(link).and_then(|link| link.body.as_deref()) else {
+        let Some(body) = at.space.body(link) else {
             continue;
         };
         let pose = &at.poses[link];
+        let deviation = body.stated_deviation();
+        // A link whose ball lies higher than the lowest point so far has none lower, nor one as low.
+        let height = normal.dot(&pose.transform_point(body.center())) - offset;
+        let rounding = 1e-12 * (pose.translation.norm() + body.radius_from_origin() + offset.abs());
+        if height - body.radius() - deviation - rounding > least {
+            continue;
+        }
         let lowest = body.farthest(&-pose.rotation.tr_mul(normal));
         let point = pose.transform_point(&(lowest.point + body.center()));
-        let over = normal.dot(&point) - offset - body.stated_deviation();
+        let over = normal.dot(&point) - offset - deviation;
         if over < least {
             least = over;
             place = Some(WorldPlace {
@@ -91,8 +98,7 @@ pub(super) fn over_floor(
 
 /// Bounds the coordinates that enter the points of a link.
 pub(super) fn largest_coordinate_of(at: &SpaceState, link: usize) -> f64 {
-    let body = at.space.link(link).and_then(|link| link.body.as_deref());
-    let body = body.map_or(0.0, |body| {
+    let body = at.space.body(link).map_or(0.0, |body| {
         body.radius_from_origin() + body.deviation() / DISTANCE_ERROR
     });
     at.poses[link].translation.norm() + body
@@ -100,6 +106,6 @@ pub(super) fn largest_coordinate_of(at: &SpaceState, link: usize) -> f64 {
 
 /// How far what a link's body stands for may be from it.
 pub(super) fn stated_deviation_of(at: &SpaceState, link: usize) -> f64 {
-    let body = at.space.link(link).and_then(|link| link.body.as_deref());
+    let body = at.space.body(link);
     body.map_or(0.0, |body| body.stated_deviation())
 }

@@ -182,7 +182,6 @@ impl QueryContext {
         let cobject = asked.as_deref().unwrap_or(cobject);
         options.check_for(cobject)?;
         let v = &checked_difference(cobject.space(), q0, q1)?;
-        cobject.space().check_velocity(v, "velocity")?;
         let world = &self.look(cobject);
         let line = LinearMotion {
             world,
@@ -266,6 +265,10 @@ impl QueryContext {
             if threshold >= ceiling {
                 threshold = 0.5 * (bounds.lower() + ceiling);
             }
+            // Where no upper bound is known there is nothing between it and what is proved to ask for.
+            if bounds.proved.is_some_and(|proved| threshold <= proved) {
+                break;
+            }
             let at_threshold = MotionOptions {
                 threshold,
                 ..any_contact
@@ -290,8 +293,11 @@ impl QueryContext {
                         return Ok(ClearanceOutcome::Hit);
                     }
                     bounds.take(found.clone());
-                    self.descend(way, found, options, bounds)?;
-                    if bounds.nearest.upper() > upper - 0.5 * step {
+                    if found.upper().is_finite() {
+                        self.descend(way, found, options, bounds)?;
+                    }
+                    let now = bounds.nearest.upper();
+                    if now.is_infinite() || now > upper - 0.5 * step {
                         ceiling = threshold;
                     }
                     failures += 1;

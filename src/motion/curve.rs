@@ -78,7 +78,12 @@ impl QueryContext {
                 tolerance: (options.tolerance / (to - from)).clamp(1e-12, 1.0),
                 ..*options
             };
-            let answer = self.motion_on_piece(world, cobject, &piece.points, &within)?;
+            let answer = match self.motion_on_piece(world, cobject, &piece.points, &within) {
+                Err(error) if error.kind == ErrorKind::Limit => {
+                    MotionAnswer::undecided_at(&piece.points[..space.nq()])
+                }
+                answer => answer?,
+            };
             let is_free = answer.outcome == MotionOutcome::Free;
             let times = answer.times.map(|t| (from + t * (to - from)).min(to));
             found = Some(MotionAnswer { times, ..answer });
@@ -132,12 +137,7 @@ fn check_points(space: &Space, points: &[f64]) -> Result<()> {
     }
     let rests = |c: usize| points.iter().skip(c).step_by(nq).all(|x| *x == points[c]);
     for block in space.blocks() {
-        let quaternion = match block.kind {
-            BlockKind::Line => continue,
-            BlockKind::Rotation => block.coordinate..block.coordinate + 4,
-            BlockKind::Placement => block.coordinate..block.coordinate + 7,
-        };
-        if let Some(c) = quaternion.into_iter().find(|c| !rests(*c)) {
+        if let Some(c) = block.tied_coordinates().find(|c| !rests(*c)) {
             return Err(Error::new(
                 ErrorKind::Unsupported,
                 format!(

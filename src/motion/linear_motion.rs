@@ -70,7 +70,7 @@ impl<'a> LinearMotion<'a> {
             }
             BodyPairs::Links { pairs, .. } => {
                 let extent = |link: usize| {
-                    let body = space.link(link).and_then(|link| link.body.as_deref());
+                    let body = space.body(link);
                     body.map_or(0.0, |body| body.radius_from_origin())
                 };
                 let of_pair = |&[r, s]: &[usize; 2]| {

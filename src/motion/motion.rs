@@ -74,6 +74,18 @@ pub struct MotionAnswer {
     pub distance: Option<Distance>,
 }
 
+impl MotionAnswer {
+    /// Where the work ended before the proof began.
+    pub(super) fn undecided_at(q: &[f64]) -> Self {
+        Self {
+            outcome: MotionOutcome::Undecided,
+            times: [0.0; 2],
+            configuration: q.to_vec(),
+            distance: None,
+        }
+    }
+}
+
 impl MotionOptions {
     /// Checks them, and that the C-object can be asked about this threshold.
     pub(crate) fn check_for(&self, cobject: &CObject) -> Result<()> {
@@ -146,7 +158,6 @@ impl QueryContext {
         options: &MotionOptions,
     ) -> Result<MotionAnswer> {
         let v = &checked_difference(cobject.space(), q0, q1)?;
-        cobject.space().check_velocity(v, "velocity")?;
         let line = LinearMotion {
             world,
             cobject,
@@ -340,12 +351,9 @@ impl QueryContext {
 fn times_sampled_first(way: &Way) -> impl Iterator<Item = f64> {
     let LinearMotion { cobject, q, v, .. } = way.line;
     let space = cobject.space();
-    let last_body = (0..space.link_count()).rev().find_map(|link| {
-        Some((
-            link,
-            space.link(link)?.body.as_deref()?.radius_from_origin(),
-        ))
-    });
+    let last_body = (0..space.link_count())
+        .rev()
+        .find_map(|link| Some((link, space.body(link)?.radius_from_origin())));
     let (last, radius) = last_body.unwrap_or((0, 0.0));
     let length = space.motion_bound_of_radius(last, radius, q, v);
     let is_asked = move |&eighths: &u32| {
@@ -364,5 +372,7 @@ pub(crate) fn checked_difference(space: &Space, q0: &[f64], q1: &[f64]) -> Resul
             .check_configuration(q)
             .map_err(|error| error.within(name))?;
     }
-    Ok(space.difference(q0, q1))
+    let v = space.difference(q0, q1);
+    space.check_velocity(&v, "velocity")?;
+    Ok(v)
 }

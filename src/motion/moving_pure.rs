@@ -161,9 +161,10 @@ impl MovingPart {
             }
         }
         let pure = self.at(moment, false);
-        let lower = pure.bounded_distance()?.lower;
+        let measured = pure.measured()?;
+        let lower = pure.bounds_of(measured.as_ref())?.lower;
         // At the boundary of an open set, such as that beyond the joint limits, a configuration is outside.
-        let is_inside = pure.class()? == Class::Inside;
+        let is_inside = pure.class_of(measured.as_ref())? == Class::Inside;
         if is_inside || (threshold > 0.0 && lower <= threshold) {
             return Ok(SetVerdict::Meets);
         }
@@ -216,8 +217,9 @@ impl MovingPart {
     fn complement_over(&self, moment: &Moment, threshold: f64) -> Result<SetVerdict> {
         let change = self.change(moment);
         let pure = self.at(moment, true);
+        let measured = pure.measured()?;
         if threshold > 0.0 {
-            let lower = pure.bounded_distance()?.lower;
+            let lower = pure.bounds_of(measured.as_ref())?.lower;
             return Ok(if lower <= threshold {
                 SetVerdict::Meets
             } else if change == 0.0 || lower - threshold > change {
@@ -226,10 +228,10 @@ impl MovingPart {
                 SetVerdict::Undecided
             });
         }
-        if pure.class()? == Class::Inside {
+        if pure.class_of(measured.as_ref())? == Class::Inside {
             return Ok(SetVerdict::Meets);
         }
-        let stays = match self.set.measure(&moment.scene.space_state())? {
+        let stays = match measured.map(|measured| measured.measure()) {
             Some(measure) if !measure.is_bound => {
                 // Predicates decide about contact themselves, and those that do not know how deep they are say nothing below 0.
                 let is_predicate = matches!(self.set.shape, PureShape::Predicate(_));

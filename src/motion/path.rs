@@ -85,12 +85,7 @@ impl Path<'_> {
     fn undecided_from(&self, segment: usize) -> PathAnswer {
         PathAnswer {
             segment,
-            motion: MotionAnswer {
-                outcome: MotionOutcome::Undecided,
-                times: [0.0; 2],
-                configuration: self.point(segment).to_vec(),
-                distance: None,
-            },
+            motion: MotionAnswer::undecided_at(self.point(segment)),
         }
     }
 }

@@ -24,6 +24,8 @@ struct Search<'a> {
     order: Vec<usize>,
     /// The least lower bound of those that were looked at.
     lower: f64,
+    /// Whether all of these were proved free.
+    is_free: bool,
     nearest: Option<PathClearance>,
 }
 
@@ -52,6 +54,11 @@ impl Search<'_> {
 
     fn take(&mut self, segment: usize, found: MotionClearance) {
         self.lower = self.lower.min(found.lower);
+        let proved = matches!(
+            found.outcome,
+            ClearanceOutcome::Known | ClearanceOutcome::BeyondMax
+        );
+        self.is_free &= proved || found.lower > 0.0;
         if self.nearest.is_none() || found.distance.upper_of_grown() < self.upper() {
             self.nearest = Some(PathClearance {
                 segment,
@@ -65,7 +72,10 @@ impl Search<'_> {
         let upper = self.upper();
         match last {
             ClearanceOutcome::Hit | ClearanceOutcome::Undecided | ClearanceOutcome::Empty => last,
-            _ if upper.is_infinite() => ClearanceOutcome::BeyondMax,
+            _ if !self.is_free => ClearanceOutcome::Near,
+            _ if upper.is_infinite() && self.lower >= self.options.max_distance => {
+                ClearanceOutcome::BeyondMax
+            }
             _ if upper - self.lower.min(upper) <= self.options.allowed(upper) => {
                 ClearanceOutcome::Known
             }
@@ -101,6 +111,7 @@ impl QueryContext {
             options,
             order: self.nearest_first(path, options.max_distance)?,
             lower: f64::INFINITY,
+            is_free: true,
             nearest: None,
         };
         let last = match self.search_segments(&mut search, progress) {

@@ -15,7 +15,6 @@ use crate::cobject::CObject;
 use crate::error::Result;
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::query::{QueryContext, World};
-use crate::robot::BlockKind;
 use crate::space::Space;
 
 /// Sides of boxes no longer than this part of the whole box's are not halved: over them hardly anything moves by more than rounding.
@@ -136,11 +135,7 @@ impl Region {
 /// The velocities whose coordinates may have a width, with these coordinates.
 pub(super) fn coordinates_of_velocities(space: &Space) -> impl Iterator<Item = (usize, usize)> {
     space.blocks().iter().flat_map(|block| {
-        let count = match block.kind {
-            BlockKind::Line => 1,
-            BlockKind::Rotation => 0,
-            BlockKind::Placement => 3,
-        };
+        let count = block.kind.lines();
         (0..count).map(|i| (block.velocity + i, block.coordinate + i))
     })
 }

@@ -169,7 +169,7 @@ impl QueryContext {
             cobject,
             points,
         };
-        let steps = path.segment_count() + options.attempts;
+        let steps = path.segment_count().saturating_add(options.attempts);
         let mut done = 0;
         let mut step = || {
             progress(done as f64 / steps as f64)?;

@@ -318,7 +318,6 @@ const TOUCH_FRACTION: f64 = 1e-4;
 fn require_union(cobject: &CObject) -> Result<()> {
     let measures = |cobject: &CObject| match cobject.set() {
         Set::Pure(pure) => !matches!(pure.shape, PureShape::Predicate(_)),
-        Set::Union { others, .. } => others.is_empty(),
         _ => false,
     };
     let all = match cobject.set() {
@@ -337,7 +336,7 @@ fn require_union(cobject: &CObject) -> Result<()> {
 /// The least radius of a body that a link carries, its own or an attached object.
 fn smallest_radius(motion: &LinearMotion) -> Result<f64> {
     let space = motion.cobject.space();
-    let links = (0..space.link_count()).filter_map(|link| space.link(link)?.body.as_ref());
+    let links = (0..space.link_count()).filter_map(|link| space.body(link));
     let own = links.map(|body| body.radius());
     let scene = &motion.scene(motion.q)?;
     let attached = scene.held().iter().map(|held| held.object.body.radius());

@@ -82,13 +82,8 @@ impl<'a> StatedMotion<'a> {
             max_accelerations: larger(bounds.max_accelerations, "max_accelerations")?,
         };
         for block in space.blocks() {
-            let first = block.coordinate;
-            let quaternion = match block.kind {
-                BlockKind::Line => continue,
-                BlockKind::Rotation => first..first + 4,
-                BlockKind::Placement => first..first + 7,
-            };
-            if let Some(c) = quaternion.into_iter().find(|&c| motion.max_rates[c] != 0.0) {
+            let mut tied = block.tied_coordinates();
+            if let Some(c) = tied.find(|&c| motion.max_rates[c] != 0.0) {
                 return Err(Error::new(
                     ErrorKind::Unsupported,
                     format!(
@@ -123,6 +118,11 @@ impl<'a> StatedMotion<'a> {
     /// The motion at a time. Fails where it is not within its bounds, or where it and its rates do not fit what the function gave at
     /// time 0 and when it was asked last.
     pub fn at(&self, t: f64) -> Result<MotionMoment> {
+        if let Some((time, moment)) = &*self.known[1].borrow()
+            && *time == t
+        {
+            return Ok(moment.clone());
+        }
         let moment = self.asked(t)?;
         for c in 0..self.space.nq() {
             let (from, to) = (self.start[c], moment.q[c]);

@@ -33,12 +33,7 @@ pub fn step_limits(space: &Space, q: &[f64], length: f64) -> Result<Vec<HalfSpac
         }
     };
     for block in space.blocks() {
-        let moved = match block.kind {
-            BlockKind::Line => 1,
-            BlockKind::Rotation => 0,
-            BlockKind::Placement => 3,
-        };
-        for k in 0..moved {
+        for k in 0..block.kind.lines() {
             let c = block.coordinate + k;
             let Coordinate::Interval { lower, upper } = space.coordinates()[c] else {
                 continue;

@@ -9,7 +9,7 @@ use crate::cobject::{Around, ClearCells};
 use crate::error::Result;
 use crate::pose::Pose;
 use crate::query::Scene;
-use crate::robot::{BlockKind, LinkMotions, bezier};
+use crate::robot::{LinkMotions, bezier};
 use crate::tolerance::EPSILON;
 
 /// Added to times: more than a configuration is rounded where its motion starts, or goes, far from it.
@@ -89,18 +89,14 @@ impl<'a> Way<'a> {
         if !self.line.cobject.has_known() {
             return Ok(false);
         }
-        let q = self.at(0.5)?;
-        let part = match self.kind {
-            WayKind::Line | WayKind::Curve { .. } | WayKind::Stated(_) => 0.5 + TIME_SLACK,
-            WayKind::Box { .. } => 1.0,
+        let whole = match self.kind {
+            WayKind::Line | WayKind::Curve { .. } | WayKind::Stated(_) => {
+                Some((0.5, Span::Around(0.5)))
+            }
+            WayKind::Box { .. } => None,
         };
-        let half: Vec<f64> = self.line.v.iter().map(|rate| rate * part).collect();
-        let around = &Around {
-            q: &q,
-            half: &half,
-            is_line: matches!(self.kind, WayKind::Line),
-        };
-        Ok(tree.is_free_by_word(self.line.cobject.space(), around))
+        let space = self.line.cobject.space();
+        self.with_around(whole, |around| tree.is_free_by_word(space, around))
     }
 
     /// Whether the whole way is in cells that are proved. They are looked up for straight motions only.
@@ -140,11 +136,7 @@ impl<'a> Way<'a> {
         for block in self.line.cobject.space().blocks() {
             let (c, k) = (block.coordinate, block.velocity);
             // Quaternions are of length 1.
-            let lines = match block.kind {
-                BlockKind::Line => 1,
-                BlockKind::Rotation => 0,
-                BlockKind::Placement => 3,
-            };
+            let lines = block.kind.lines();
             for i in 0..block.kind.nv() {
                 let size = if i < lines { q[c + i].abs() } else { 1.0 };
                 if v[k + i] != 0.0 {

@@ -23,6 +23,36 @@ pub struct Octree {
     placement: Option<Placement>,
 }
 
+/// Changes of cells that are taken back unless they are kept: also where a panic ends them.
+struct Attempt<'a> {
+    cells: &'a mut Cells,
+    is_occupied: bool,
+    /// The cells that were not so before.
+    changed: Vec<Cube>,
+}
+
+impl Attempt<'_> {
+    fn set(&mut self, cell: [u32; 3]) -> Result<()> {
+        if self.cells.set(cell, self.is_occupied)? {
+            self.changed.push(Cube::around(cell, 0));
+        }
+        Ok(())
+    }
+
+    /// The number of cells that changed.
+    fn keep(mut self) -> usize {
+        std::mem::take(&mut self.changed).len()
+    }
+}
+
+impl Drop for Attempt<'_> {
+    fn drop(&mut self) {
+        for &cube in &self.changed {
+            self.cells.put_cube(cube, !self.is_occupied);
+        }
+    }
+}
+
 impl Octree {
     /// An octree without occupied cells; `resolution` is the edge of a cell.
     pub fn new(resolution: f64) -> Result<Self> {
@@ -70,11 +100,16 @@ impl Octree {
     /// The largest cubes of occupied cells: lowest corner and edge. Equal sets of cells have equal cubes in equal order.
     pub fn cubes(&self) -> Vec<(Vec3, f64)> {
         let mut cubes = Vec::new();
+        self.visit_cubes(&mut |low, edge| cubes.push((low, edge)));
+        cubes
+    }
+
+    /// Visits the cubes of [`Octree::cubes`] in their order.
+    pub fn visit_cubes(&self, visit: &mut dyn FnMut(Vec3, f64)) {
         self.cells.visit(WHOLE, 0, &mut |cube: Cube| {
             let edge = f64::from(cube.edge()) * self.resolution;
-            cubes.push((steps(cube.low) * self.resolution, edge));
+            visit(steps(cube.low) * self.resolution, edge);
         });
-        cubes
     }
 
     /// Whether the cells around points are occupied.
@@ -86,26 +121,19 @@ impl Octree {
     /// Makes the cells around points occupied, or empty. Returns how many cells changed. Where the octree is placed in an
     /// environment, the objects follow in one change of it; if that fails, nothing changes.
     pub fn set(&mut self, points: &[Vec3], is_occupied: bool) -> Result<usize> {
-        let mut changed = Vec::new();
-        let mut set = || {
-            for cell in self.cells_at(points)? {
-                if self.cells.set(cell, is_occupied)? {
-                    changed.push(Cube::around(cell, 0));
-                }
-            }
-            match &mut self.placement {
-                Some(placement) => placement.follow(&self.cells, self.resolution, &changed),
-                None => Ok(()),
-            }
+        let named = self.cells_at(points)?;
+        let mut attempt = Attempt {
+            cells: &mut self.cells,
+            is_occupied,
+            changed: Vec::new(),
         };
-        let result = set();
-        if let Err(error) = result {
-            for &cube in &changed {
-                self.cells.put_cube(cube, !is_occupied);
-            }
-            return Err(error);
+        for cell in named {
+            attempt.set(cell)?;
         }
-        Ok(changed.len())
+        if let Some(placement) = &mut self.placement {
+            placement.follow(attempt.cells, self.resolution, &attempt.changed)?;
+        }
+        Ok(attempt.keep())
     }
 
     /// Makes the cells that are occupied in another octree occupied. Both must have one resolution.

@@ -105,8 +105,11 @@ impl QueryContext {
         let mut most = Class::Outside;
         for part in parts.clone().filter(is_pure) {
             most = most.max(self.class_among(part, scene, is_proved, memo)?);
+            if most == Class::Inside {
+                return Ok(most);
+            }
         }
-        if most < Class::Inside && !induced.is_empty() {
+        if !induced.is_empty() {
             most = most.max(self.class_of_group(induced, scene, is_proved)?);
         }
         for part in parts.filter(|part| !is_pure(part)) {

@@ -46,7 +46,7 @@ impl QueryContext {
 
     /// Whether the distance of a target may be at most a threshold, given that the bodies grown by their deviations are that near.
     pub(super) fn refined_within(&mut self, target: &Target, threshold: f64) -> Result<bool> {
-        let Some(mut search) = self.begin_refinement(target, threshold, true)? else {
+        let Some(mut search) = self.begin_refinement(target, threshold)? else {
             return Ok(true);
         };
         let end = |search: &PartSearch| search.lower() > threshold || search.upper <= threshold;
@@ -85,7 +85,7 @@ impl QueryContext {
         if whole.kind != DistanceKind::Exact || whole.excess == 0.0 || is_contained {
             return Ok(whole);
         }
-        let Some(mut search) = self.begin_refinement(target, limit.min(whole.upper), true)? else {
+        let Some(mut search) = self.begin_refinement(target, limit.min(whole.upper))? else {
             return Ok(whole);
         };
         search.run(limit, |_| false, &mut self.scratch)?;
@@ -101,12 +101,11 @@ impl QueryContext {
         &mut self,
         target: &'t Target<'a>,
         limit: f64,
-        counts_doubt: bool,
     ) -> Result<Option<PartSearch<'t, 'a>>> {
         let Some(gap) = self.gap.filter(|_| target.is_curved()) else {
             return Ok(None);
         };
-        let visitor = Collect::new(limit, MAX_PAIRS, counts_doubt);
+        let visitor = Collect::new(limit, MAX_PAIRS, true);
         let (hits, is_truncated) = self.collect(std::slice::from_ref(target), visitor)?;
         if hits.iter().any(|hit| hit.contained.is_some()) {
             return Ok(None);

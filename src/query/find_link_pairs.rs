@@ -168,9 +168,7 @@ impl QueryContext {
             if number % PAIRS_BETWEEN_ASKING == 0 {
                 ask()?;
             }
-            let [a, b] = pair
-                .links
-                .map(|link| space.link(link).and_then(|l| l.body.as_deref()));
+            let [a, b] = pair.links.map(|link| space.body(link));
             let (Some(a), Some(b)) = (a, b) else {
                 continue;
             };

@@ -2,7 +2,7 @@
 
 use super::answer::{ContactRecord, Distance, PurePlace, SSide, Witness};
 use super::scene::Scene;
-use crate::cobject::{BoundedDistance, Class, PureSet, PureShape, WorldPlace};
+use crate::cobject::{BoundedDistance, Class, Measured, PureSet, PureShape, WorldPlace};
 use crate::convex::ContactMode;
 use crate::error::Result;
 use crate::pose::Vec3;
@@ -25,18 +25,34 @@ pub(crate) struct PureWitness {
 }
 
 impl PureAt<'_> {
-    pub fn class(&self) -> Result<Class> {
-        let state = self.scene.space_state();
-        let class = self.set.classify(&state, self.complement)?;
+    /// The class.
+    pub fn class_of(&self, measured: Option<&Measured>) -> Result<Class> {
+        let class = match measured {
+            Some(measured) => measured.class(self.complement),
+            None => {
+                let state = self.scene.space_state();
+                self.set.classify(&state, self.complement)?
+            }
+        };
         Ok(class.reversed_if(self.complement))
     }
 
-    /// The distance. A set that does not measure has distance 0 where the configuration is inside, else an unknown one.
+    /// What a look at the set tells; `None` of a predicate that does not measure.
+    pub fn measured(&self) -> Result<Option<Measured<'_>>> {
+        self.set.measured(&self.scene.space_state())
+    }
+
+    /// The distance.
     pub fn bounded_distance(&self) -> Result<BoundedDistance> {
-        if let Some(measure) = self.set.measure(&self.scene.space_state())? {
-            return Ok(measure.bounded_distance(self.complement));
+        self.bounds_of(self.measured()?.as_ref())
+    }
+
+    /// A set that does not measure has distance 0 where the configuration is inside, else an unknown one.
+    pub fn bounds_of(&self, measured: Option<&Measured>) -> Result<BoundedDistance> {
+        if let Some(measured) = measured {
+            return Ok(measured.measure().bounded_distance(self.complement));
         }
-        let is_inside = self.class()? == Class::Inside;
+        let is_inside = self.class_of(None)? == Class::Inside;
         Ok(BoundedDistance {
             distance: 0.0,
             lower: 0.0,
@@ -47,9 +63,11 @@ impl PureAt<'_> {
     }
 
     pub fn distance(&self, max_distance: f64) -> Result<Distance> {
-        let bounds = self.bounded_distance()?;
-        let contact = self.contact(&bounds)?;
-        let mut witness = self.witness(&bounds);
+        let measured = self.measured()?;
+        let measured = measured.as_ref();
+        let bounds = self.bounds_of(measured)?;
+        let contact = measured.and_then(|measured| self.contact(measured, &bounds));
+        let mut witness = self.witness(measured, &bounds);
         witness.contact_count = usize::from(contact.is_some());
         Ok(Distance::from_bounds(
             bounds,
@@ -61,19 +79,21 @@ impl PureAt<'_> {
 
     /// The witness and its contact, if the set may be within `epsilon`, with the gradient if requested.
     pub fn within(&self, epsilon: f64, with_gradient: bool) -> Result<Option<PureWitness>> {
-        let bounds = self.bounded_distance()?;
+        let measured = self.measured()?;
+        let measured = measured.as_ref();
+        let bounds = self.bounds_of(measured)?;
         let measures = bounds.is_exact || bounds.lower > 0.0;
         if bounds.lower > epsilon || bounds.lower == f64::INFINITY || !measures {
             return Ok(None);
         }
-        let contact = self.contact(&bounds)?;
+        let contact = measured.and_then(|measured| self.contact(measured, &bounds));
         let mut row = Vec::new();
         if with_gradient && contact.is_some() {
             let gradient = self.set.gradient(&self.scene.space_state())?;
             let sign = self.sign();
             row = gradient.into_iter().map(|x| x * sign).collect();
         }
-        let mut witness = self.witness(&bounds);
+        let mut witness = self.witness(measured, &bounds);
         witness.contact_count = usize::from(contact.is_some());
         witness.overlapping = contact.is_none();
         Ok(Some(PureWitness {
@@ -87,9 +107,9 @@ impl PureAt<'_> {
         if self.complement { -1.0 } else { 1.0 }
     }
 
-    fn witness(&self, bounds: &BoundedDistance) -> Witness {
+    fn witness(&self, measured: Option<&Measured>, bounds: &BoundedDistance) -> Witness {
         let state = self.scene.space_state();
-        let world = self.set.place(&state);
+        let world = measured.and_then(|measured| measured.place);
         let coordinate = self.set.coordinate(&state);
         let place = match coordinate {
             Some(coordinate) => PurePlace::Coordinate(coordinate),
@@ -98,7 +118,7 @@ impl PureAt<'_> {
         };
         let link = world.map_or(0, |place| place.link);
         let primitive = world.and_then(|place| place.primitive).unwrap_or(0);
-        let body = state.space.link(link).and_then(|link| link.body.as_deref());
+        let body = state.space.body(link);
         let body = body.filter(|_| matches!(world, Some(place) if place.primitive.is_some()));
         Witness {
             leaf: self.set.leaf,
@@ -120,10 +140,8 @@ impl PureAt<'_> {
     }
 
     /// A contact where the signed distance is known.
-    fn contact(&self, bounds: &BoundedDistance) -> Result<Option<ContactRecord>> {
-        let Some(measure) = self.set.measure(&self.scene.space_state())? else {
-            return Ok(None);
-        };
+    fn contact(&self, measured: &Measured, bounds: &BoundedDistance) -> Option<ContactRecord> {
+        let measure = measured.measure();
         let knows = if measure.signed > 0.0 {
             !(self.complement && measure.is_bound)
         } else {
@@ -134,7 +152,7 @@ impl PureAt<'_> {
             measure.knows_depth || is_floor || is_at_boundary
         };
         if !knows || !measure.signed.is_finite() {
-            return Ok(None);
+            return None;
         }
         let mut contact = ContactRecord {
             points: [Vec3::zeros(); 2],
@@ -144,10 +162,10 @@ impl PureAt<'_> {
             mode: ContactMode::PureSet,
             features: [Feature::interior(); 2],
         };
-        if let Some(place) = self.set.place(&self.scene.space_state()) {
-            contact.place(&place, self.sign(), 0.5 * measure.excess);
+        if let Some(place) = &measured.place {
+            contact.place(place, self.sign(), 0.5 * measure.excess);
         }
-        Ok(Some(contact))
+        Some(contact)
     }
 }
 

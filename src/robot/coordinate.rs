@@ -1,5 +1,7 @@
 //! The coordinates of a configuration: their topology, and the blocks of coordinates that move together.
 
+use std::ops::Range;
+
 /// The topology of a coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coordinate {
@@ -44,6 +46,15 @@ pub enum BlockKind {
 }
 
 impl BlockKind {
+    /// The number of coordinates, the first ones, that move along lines.
+    pub fn lines(self) -> usize {
+        match self {
+            BlockKind::Line => 1,
+            BlockKind::Rotation => 0,
+            BlockKind::Placement => 3,
+        }
+    }
+
     /// The number of coordinates.
     pub fn nq(self) -> usize {
         match self {
@@ -72,4 +83,16 @@ pub struct Block {
     pub coordinate: usize,
     /// The first velocity.
     pub velocity: usize,
+}
+
+impl Block {
+    /// The coordinates that a quaternion ties to each other, its own and those of the place it stands beside; none of a line.
+    pub fn tied_coordinates(&self) -> Range<usize> {
+        match self.kind {
+            BlockKind::Line => 0..0,
+            BlockKind::Rotation | BlockKind::Placement => {
+                self.coordinate..self.coordinate + self.kind.nq()
+            }
+        }
+    }
 }

@@ -45,7 +45,7 @@ pub enum CoordinateCourses<'a> {
         /// One entry per velocity.
         v: &'a [f64],
     },
-    /// On a Bezier curve; coordinates of quaternions and custom joints must rest.
+    /// On a Bezier curve; coordinates of quaternions must rest, and of custom joints that move no more than a speed is known.
     Curve {
         /// The control points, one configuration after another, of the whole space.
         controls: &'a [f64],
@@ -54,7 +54,8 @@ pub enum CoordinateCourses<'a> {
         /// The robot's first coordinate in the space.
         first: usize,
     },
-    /// As a function gives it, from q on; coordinates of quaternions and custom joints must rest.
+    /// As a function gives it, from q on; coordinates of quaternions must rest, and of custom joints that move no more than a speed is
+    /// known.
     Given {
         /// The configuration at time 0, of the whole space.
         q: &'a [f64],

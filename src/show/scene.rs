@@ -66,7 +66,7 @@ impl<'a> Drawing<'a> {
     fn new(world: &'a World, cobject: &'a CObject, q: &'a [f64]) -> Result<Self> {
         let space = cobject.space();
         let sizes = (0..space.link_count())
-            .filter_map(|link| space.link(link)?.body.as_ref())
+            .filter_map(|link| space.body(link))
             .map(|body| body.radius());
         Ok(Self {
             world,

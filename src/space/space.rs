@@ -400,7 +400,7 @@ impl Space {
     }
 
     /// All links on a Bezier curve, given by its control points: one configuration after another, of which no coordinates of
-    /// quaternions or custom joints differ.
+    /// quaternions differ.
     pub fn link_motions_on_curve(&self, controls: &[f64]) -> LinkMotions {
         let mut motions = LinkMotions::default();
         for (index, robot) in self.robots.iter().enumerate() {
@@ -415,7 +415,7 @@ impl Space {
     }
 
     /// All links on a motion from q that a function gives, with bounds of the first two derivatives of each coordinate; those of
-    /// quaternions and custom joints rest.
+    /// quaternions rest.
     pub fn link_motions_given(
         &self,
         q: &[f64],

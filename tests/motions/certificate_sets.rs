@@ -329,6 +329,42 @@ fn a_limit_of_work_ends_the_making() {
     }
 }
 
+/// Parts of an intersection are proved free within the making: that work is limited too, and its end is no error.
+#[test]
+fn a_limit_of_work_ends_the_making_for_intersections() {
+    let space = slider(9.0, 9.0);
+    let both = CObject::intersection(&[wall(&space, -4.0), wall(&space, 4.0)]).unwrap();
+    let options = MotionOptions::default();
+    let context = &mut QueryContext::new();
+    let [mut undecided, mut made] = [0; 2];
+    for limit in 0..400 {
+        context.set_limit(Some(limit));
+        let is_free = context
+            .motion(&both, &[-8.0], &[8.0], &options)
+            .is_ok_and(|answer| answer.outcome == MotionOutcome::Free);
+        if !is_free {
+            continue;
+        }
+        let (_, certificate) = context
+            .motion_certificate(&both, &[-8.0], &[8.0], &options)
+            .unwrap();
+        undecided += usize::from(certificate.is_none());
+        made += usize::from(certificate.is_some());
+    }
+    assert!(undecided > 0 && made > 0, "{undecided} and {made}");
+}
+
+/// The same input is refused as of motions.
+#[test]
+fn motions_too_long_to_prove_are_refused() {
+    let space = slider(1e50, 9.0);
+    let set = wall(&space, 8.0);
+    let error = made(&set, &[-0.9e50], &[0.9e50], 0.0).unwrap_err();
+    let options = MotionOptions::default();
+    let of_motion = QueryContext::new().motion(&set, &[-0.9e50], &[0.9e50], &options);
+    assert_eq!(error.kind, of_motion.unwrap_err().kind);
+}
+
 /// Two links of a chain: their hulls overlap all the time, so groups of faces are parted.
 #[test]
 fn linked_rings_are_certified_face_by_face() {

@@ -1,10 +1,11 @@
 //! The least distance along motions: against dense samples of the distance, and in closed forms.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use cstk::body::{Body, BodyBuilder};
-use cstk::cobject::{CObject, Class, InducedOptions, PureShape};
-use cstk::error::ErrorKind;
+use cstk::cobject::{CObject, Class, InducedOptions, Predicate, PureShape};
+use cstk::error::{ErrorKind, Result};
 use cstk::hierarchy::HierarchyOptions;
 use cstk::motion::{ClearanceOptions, ClearanceOutcome, MotionClearance};
 use cstk::pose::{Pose, Vec3};
@@ -385,5 +386,63 @@ fn clearances_know_no_scale() {
             work <= 2 * usual,
             "{scale}: {work} node pairs, {usual} at 1"
         );
+    }
+}
+
+/// Where q is at least 2, with a lower bound of the distance; counts how often it is asked.
+#[derive(Default)]
+struct Beyond {
+    asked: AtomicUsize,
+}
+
+impl Predicate for Beyond {
+    fn classify(&self, q: &[f64]) -> Result<Class> {
+        Ok(match q[0] >= 2.0 {
+            true => Class::Inside,
+            false => Class::Outside,
+        })
+    }
+
+    fn distance(&self, q: &[f64]) -> Result<Option<f64>> {
+        self.asked.fetch_add(1, Ordering::Relaxed);
+        Ok(Some(0.5 * (2.0 - q[0])))
+    }
+
+    fn is_exact(&self) -> bool {
+        false
+    }
+
+    fn knows_depth(&self) -> bool {
+        false
+    }
+
+    fn gradient(&self, _: &[f64], _: &mut [f64]) -> Result<bool> {
+        Ok(false)
+    }
+}
+
+/// Of a bound no distance is known that the lower bound could come near: what is proved is told after a few proofs.
+#[test]
+fn a_predicate_that_bounds_is_not_asked_without_end() {
+    let slider = link(None, JointKind::Prismatic, Vec3::x());
+    let space = &space(vec![robot(3, vec![slider])]);
+    for (max_distance, least) in [(f64::INFINITY, 0.0), (0.8, 0.45), (0.3, 0.3)] {
+        let predicate = Arc::new(Beyond::default());
+        let set = pure(space, PureShape::Predicate(predicate.clone()), None);
+        let options = ClearanceOptions {
+            max_distance,
+            ..ClearanceOptions::with_tolerance(1e-3)
+        };
+        let found = QueryContext::new()
+            .motion_clearance(&set, &[0.0], &[1.0], &options)
+            .unwrap();
+        let expected = match max_distance == 0.3 {
+            true => ClearanceOutcome::BeyondMax,
+            false => ClearanceOutcome::Near,
+        };
+        assert_eq!(found.outcome, expected, "{found:?}");
+        assert!((least..=0.5).contains(&found.lower), "{found:?}");
+        let asked = predicate.asked.load(Ordering::Relaxed);
+        assert!(asked < 1000, "{asked} times");
     }
 }

@@ -209,6 +209,41 @@ fn a_slider_on_a_parabola_meets_a_wall_when_it_should() {
     assert_eq!(kind(&[0.0; 18]), ErrorKind::InvalidArgument);
 }
 
+/// The end of the work within a spline is an answer: what was proved is told.
+#[test]
+fn a_limit_of_work_leaves_the_pieces_that_are_proved() {
+    let mut random = Random::new(223);
+    let context = &mut QueryContext::new();
+    let mut ended = 0;
+    for _ in 0..20 {
+        let set = arm_among_hulls(&mut random);
+        let nq = set.space().nq();
+        let points: Vec<f64> = (0..12 * nq).map(|_| random.within(-0.5, 0.5)).collect();
+        let knots: Vec<f64> = (0..16).map(f64::from).collect();
+        let spline = Spline {
+            degree: 3,
+            points: &points,
+            knots: &knots,
+        };
+        let mut proved = 0.0;
+        for limit in (0..400).chain((400..20_000).step_by(200)) {
+            context.set_limit(Some(limit));
+            let options = &MotionOptions::default();
+            match context.motion_on_spline(&set, &spline, options) {
+                Ok(answer) if answer.outcome == MotionOutcome::Undecided => {
+                    proved = answer.times[0].max(proved);
+                    ended += usize::from(answer.times[0] > 0.0);
+                }
+                Ok(_) => break,
+                Err(error) => {
+                    assert_eq!((error.kind, proved), (ErrorKind::Limit, 0.0));
+                }
+            }
+        }
+    }
+    assert!(ended > 20, "{ended}");
+}
+
 #[test]
 fn bad_splines_are_refused_and_quaternions_do_not_move_on_curves() {
     let body = cuboid([1.0; 3]).body;

@@ -3,9 +3,13 @@
 use cstk::cobject::{CObject, Class};
 use cstk::error::{Error, ErrorKind, Result};
 use cstk::motion::{ClearanceOptions, ClearanceOutcome, PathClearance};
+use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, QueryContext};
+use cstk::robot::{JointKind, LinkDefinition};
 
 use helpers::random::Random;
+use helpers::robots::{against, environment, link, robot, space};
+use helpers::shapes::cuboid;
 
 use super::discs::Discs;
 use super::random_scenes::{class, scene};
@@ -208,4 +212,32 @@ fn progress_rises_and_may_end_the_work() {
         Err(Error::new(ErrorKind::Cancelled, "enough"))
     });
     assert_eq!(stopped.unwrap_err().kind, ErrorKind::Cancelled);
+}
+
+/// A corner of a turning bar passes a wall at gaps of rounding: what a motion's clearance leaves open, that of a path must not decide.
+#[test]
+fn a_path_is_known_only_where_its_segments_are() {
+    let bar = LinkDefinition {
+        body: Some(cuboid([2.0, 0.2, 0.2]).body),
+        ..link(None, JointKind::Revolute, Vec3::z())
+    };
+    let space = space(vec![robot(3, vec![bar])]);
+    let wall = cuboid([1.0, 10.0, 2.0]).body;
+    // The farthest that the corner comes.
+    let reached = 1.01f64.sqrt();
+    let options = ClearanceOptions::with_tolerance(1e-3);
+    let [mut open, mut known] = [0; 2];
+    for i in 0..400 {
+        let gap = 1e-15 * 1.03f64.powi(i);
+        let at = Pose::from_translation(Vec3::new(0.5 + reached + gap, 0.0, 0.0));
+        let cell = against(&space, &environment(&[(&wall, at)]).0);
+        let context = &mut QueryContext::new();
+        let motion = context.motion_clearance(&cell, &[-0.3], &[0.2], &options);
+        let path = context.path_clearance(&cell, &[-0.3, 0.2], &options, &mut silent);
+        let outcomes = [motion.unwrap().outcome, path.unwrap().clearance.outcome];
+        assert_eq!(outcomes[0], outcomes[1], "at a gap of {gap}");
+        open += usize::from(outcomes[0] == ClearanceOutcome::Near);
+        known += usize::from(outcomes[0] == ClearanceOutcome::Known);
+    }
+    assert!(open > 10 && known > 10, "{open} and {known}");
 }

@@ -225,3 +225,24 @@ fn progress_rises_and_may_end_the_work() {
         assert_eq!(calls, end);
     }
 }
+
+/// As many attempts as there are numbers, stopped by the caller.
+#[test]
+fn any_number_of_attempts_is_made_until_the_caller_stops() {
+    let discs = Discs::new(&[[0.0, 0.0, 0.9]]);
+    let points = [-2.0, 0.0, -2.0, 3.0, 2.0, 3.0, 2.0, 0.0];
+    let options = ShortcutOptions {
+        attempts: usize::MAX,
+        ..ShortcutOptions::default()
+    };
+    let mut calls = 0;
+    let stopped = QueryContext::new().path_shortcut(&discs.cell, &points, &options, &mut |part| {
+        assert!((0.0..=1.0).contains(&part), "{part}");
+        calls += 1;
+        match calls < 1000 {
+            true => Ok(()),
+            false => Err(Error::new(ErrorKind::Cancelled, "enough")),
+        }
+    });
+    assert_eq!(stopped.unwrap_err().kind, ErrorKind::Cancelled);
+}

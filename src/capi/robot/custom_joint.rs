@@ -153,10 +153,10 @@ impl CustomJoint for Functions {
     }
 
     fn pose(&self, q: &[f64]) -> Result<Pose> {
-        // A pose that the function leaves unwritten is not a rotation, and refused.
+        // A pose that the function leaves unwritten is no rotation, and the robot refuses it, as all that are none.
         let mut values = [0.0; 12];
         self.call(self.pose, "pose", q, &mut values)?;
-        Pose::from_row_major(&values).map_err(|e| e.within("the joint's pose function"))
+        Ok(Pose::as_given(&values))
     }
 
     fn jacobian(&self, q: &[f64], columns: &mut Vec<Twist>) -> Result<()> {
