@@ -21,6 +21,9 @@ const MAX_LOSS: f64 = 16.0;
 /// A certificate has no more steps, so that its memory is bounded: 0.5 GB.
 const MAX_STEPS: usize = 1 << 22;
 
+/// The most chosen parts that are given up for others: within nested intersections each may be tried at each depth of the other.
+const MAX_FAILURES: usize = 1000;
+
 /// Why no certificate was found.
 enum Stop {
     /// In this interval no entry could be shown: the motion comes as near the limit as rounding.
@@ -125,6 +128,7 @@ impl QueryContext {
             options,
             steps: Vec::new(),
             entries: Vec::new(),
+            failures: 0,
         };
         search.claim(&statement.claim, [0.0, 1.0])?;
         let (steps, entries) = (search.steps, search.entries);
@@ -146,6 +150,8 @@ struct Search<'a> {
     options: &'a MotionOptions,
     steps: Vec<Step>,
     entries: Vec<Entry>,
+    /// How many chosen parts could not be shown.
+    failures: usize,
 }
 
 impl Search<'_> {
@@ -168,8 +174,18 @@ impl Search<'_> {
                     if let Some(claim) = &part.claim
                         && self.is_free(part, times)?
                     {
+                        let before = [self.steps.len(), self.entries.len()];
                         self.push(Step(Step::CHOOSE_FIRST + number))?;
-                        return self.claim(claim, times);
+                        match self.claim(claim, times) {
+                            // A motion can be proved free nearer to a set than a certificate shows: another part may be farther, or
+                            // this one in a half.
+                            Err(Stop::Near(_)) if self.failures < MAX_FAILURES => {
+                                self.failures += 1;
+                                self.steps.truncate(before[0]);
+                                self.entries.truncate(before[1]);
+                            }
+                            done => return done,
+                        }
                     }
                 }
                 let Some(halves) = halves_of_time(times) else {

@@ -44,13 +44,14 @@ pub fn whole_body(
     builder.build(options, progress)
 }
 
-/// The body of the cells within a cube, in a frame whose origin is the cube's lowest corner.
-pub fn body_within(cells: &Cells, within: Cube, resolution: f64) -> Result<Body> {
+/// The body of the cells within a cube, each grown by `overlap` on all sides, in a frame whose origin is the cube's lowest corner.
+pub fn body_within(cells: &Cells, within: Cube, resolution: f64, overlap: f64) -> Result<Body> {
     let mut cubes = Vec::new();
     cells.visit(within, 0, &mut |cube| {
         let low = [0, 1, 2].map(|axis| f64::from(cube.low[axis] - within.low[axis]));
         let edge = f64::from(cube.edge()) * resolution;
-        cubes.push((Vec3::from(low) * resolution, edge));
+        let low = Vec3::from(low) * resolution;
+        cubes.push((low.add_scalar(-overlap), edge + 2.0 * overlap));
     });
     let mut builder = BodyBuilder::new(3)?;
     builder.add_cubes(&cubes)?;

@@ -188,7 +188,7 @@ impl Octree {
     /// Moves the octree within its environment.
     pub fn move_to(&mut self, pose: &Pose) -> Result<()> {
         match &mut self.placement {
-            Some(placement) => placement.move_to(pose, self.resolution),
+            Some(placement) => placement.move_to(pose, &self.cells, self.resolution),
             None => Err(Error::new(
                 ErrorKind::NotFound,
                 "the octree is in no environment",

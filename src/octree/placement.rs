@@ -8,6 +8,7 @@ use super::tiles::{TILE_LEVEL, Tile, TileBodies, Tiles, outdated, within};
 use crate::environment::{Addition, Change, Environment};
 use crate::error::Result;
 use crate::pose::{Pose, Vec3};
+use crate::tolerance::EPSILON;
 use crate::user_data::UserData;
 
 /// Where an octree is.
@@ -53,8 +54,19 @@ impl Placement {
         }
     }
 
-    /// Moves all objects, in one change.
-    pub fn move_to(&mut self, pose: &Pose, resolution: f64) -> Result<()> {
+    /// Moves all objects, in one change. Where coordinates grow so large that the objects would part, they are made anew.
+    pub fn move_to(&mut self, pose: &Pose, cells: &Cells, resolution: f64) -> Result<()> {
+        let parts = |tile: &Tile| {
+            overlap(pose, tile.cube, resolution) > overlap(&self.pose, tile.cube, resolution)
+        };
+        if self.tiles.values().any(parts) {
+            let before = std::mem::replace(&mut self.pose, *pose);
+            let made = self.replace(cells, resolution, &[WHOLE]);
+            if made.is_err() {
+                self.pose = before;
+            }
+            return made;
+        }
         let now = self.environment.snapshot();
         let tiles = self.tiles.values();
         let present = tiles.filter(|tile| now.find(tile.id).is_some());
@@ -92,7 +104,12 @@ impl Placement {
             changes.push(Change::Add(Addition {
                 data: self.data.clone(),
                 ..Addition::new(
-                    bodies.body(cells, cube, resolution)?,
+                    bodies.body(
+                        cells,
+                        cube,
+                        resolution,
+                        overlap(&self.pose, cube, resolution),
+                    )?,
                     pose_of(&self.pose, cube, resolution),
                 )
             }));
@@ -114,6 +131,14 @@ impl Placement {
         let present = tiles.filter(|tile| now.find(tile.id).is_some());
         present.map(|tile| Change::Delete { id: tile.id }).collect()
     }
+}
+
+/// How far a tile's cells reach over its neighbours', so that no rounding of their places leaves a gap between tiles. The lowest corner
+/// is a product, and its place a sum of three more and the pose's own: 4 EPSILON of their lengths is more than their rounding. To a power
+/// of two, so that many tiles share a body, and most moves keep it.
+fn overlap(pose: &Pose, tile: Cube, resolution: f64) -> f64 {
+    let length = pose.translation.norm() + steps(tile.low).norm() * resolution;
+    4.0 * EPSILON * length.log2().ceil().exp2()
 }
 
 /// The pose of a tile's body.

@@ -81,18 +81,25 @@ pub fn outdated(tiles: &Tiles, cells: &Cells, changed: &[Cube]) -> Vec<Cube> {
     cubes
 }
 
-/// Bodies of tiles, each built once for one change: those of full cubes by their level, others by their cells.
+/// Bodies of tiles, each built once for one change: those of full cubes by their level, others by their cells, and all by how much
+/// they are grown.
 #[derive(Default)]
-pub struct TileBodies(BTreeMap<(u32, u64), Arc<Body>>);
+pub struct TileBodies(BTreeMap<(u32, u64, u64), Arc<Body>>);
 
 impl TileBodies {
-    /// The body of a tile, in a frame whose origin is its lowest corner.
-    pub fn body(&mut self, cells: &Cells, cube: Cube, resolution: f64) -> Result<Arc<Body>> {
-        let key = (cube.level, pattern(cells, cube));
+    /// The body of a tile, its cells grown by `overlap` on all sides, in a frame whose origin is its lowest corner.
+    pub fn body(
+        &mut self,
+        cells: &Cells,
+        cube: Cube,
+        resolution: f64,
+        overlap: f64,
+    ) -> Result<Arc<Body>> {
+        let key = (cube.level, pattern(cells, cube), overlap.to_bits());
         if let Some(known) = self.0.get(&key) {
             return Ok(known.clone());
         }
-        let body = Arc::new(body_within(cells, cube, resolution)?);
+        let body = Arc::new(body_within(cells, cube, resolution, overlap)?);
         self.0.insert(key, body.clone());
         Ok(body)
     }

@@ -354,6 +354,38 @@ fn a_limit_of_work_ends_the_making_for_intersections() {
     assert!(undecided > 0 && made > 0, "{undecided} and {made}");
 }
 
+/// A ball that sinks past a floor from beside a wall: where it is as near the floor as rounding, the wall is a length away.
+#[test]
+fn the_part_of_an_intersection_that_is_farther_is_shown() {
+    let ball = built(|b| b.add_sphere(&Vec3::zeros(), 1.0, 0).unwrap());
+    let sinking = LinkDefinition {
+        body: Some(ball),
+        ..link(None, JointKind::Prismatic, Vec3::z())
+    };
+    let space = space(vec![robot(3, vec![sinking])]);
+    let floor = PureShape::Floor {
+        links: vec![0],
+        normal: Vec3::z(),
+        offset: 1.0,
+    };
+    let floor = pure(&space, floor, None);
+    let block = cuboid([40.0; 3]).body;
+    let at = |z: f64| Pose::from_translation(Vec3::new(0.0, 0.0, z));
+    let above = Arc::new(against(&space, &environment(&[(&block, at(24.0))]).0));
+    let both = CObject::intersection(&[floor.clone(), above]).unwrap();
+    for i in 0..40 {
+        let high = 0.5f64.powi(30 + i);
+        certified(&both, &[3.5 + high], &[0.5 + high]);
+    }
+    // Where only a complement keeps the motion out, that is said.
+    let around = Arc::new(against(&space, &environment(&[(&block, at(0.0))]).0));
+    let without = CObject::difference(&floor, &around).unwrap();
+    for i in 0..100 {
+        let error = made(&without, &[2.1 + 0.037 * f64::from(i)], &[0.5], 0.0).unwrap_err();
+        assert_eq!(error.kind, ErrorKind::Unsupported);
+    }
+}
+
 /// The same input is refused as of motions.
 #[test]
 fn motions_too_long_to_prove_are_refused() {

@@ -13,9 +13,10 @@ use cstk::hierarchy::HierarchyOptions;
 use cstk::octree::Octree;
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, QueryContext};
+use cstk::robot::{JointKind, LinkDefinition};
 
 use helpers::random::Random;
-use helpers::robots::{against, environment, free_body, space};
+use helpers::robots::{against, environment, free_body, link, robot, space};
 
 /// Cells by how many steps they begin from the origin.
 type Model = BTreeSet<[i64; 3]>;
@@ -270,6 +271,43 @@ fn answers_are_those_of_a_body_built_anew() {
                 (distance.upper, query.classify(&set, at).unwrap())
             });
             assert!((a.0 - b.0).abs() < 1e-12 && a.1 == b.1, "{a:?} {b:?}");
+        }
+    }
+}
+
+/// Points on and about the seam of two tiles in the middle of occupied cells, wherever the octree is put, moved there or placed.
+#[test]
+fn no_rounding_of_places_opens_a_gap_between_tiles() {
+    let mut random = Random::new(6);
+    let resolution = 0.05;
+    for size in [0.0, 1.0, 100.0, 1e5] {
+        let mut octree = Octree::new(resolution).unwrap();
+        change(&mut octree, &mut Model::new(), [4, 0, 0], [8, 4, 4], true);
+        let world = Arc::new(environment(&[]).0);
+        octree.place(&world, &Pose::identity(), None).unwrap();
+        for round in 0..40 {
+            let pose = random.pose(size);
+            if round == 20 {
+                octree.remove().unwrap();
+                octree.place(&world, &pose, None).unwrap();
+            } else {
+                octree.move_to(&pose).unwrap();
+            }
+            for step in -6..=6 {
+                let x = 8.0 * resolution + f64::from(step) * size * 2e-17;
+                let mut builder = BodyBuilder::new(3).unwrap();
+                let at = Vec3::new(x, 0.1, 0.1);
+                builder.add_sphere(&at, 0.0, 0).unwrap();
+                let body = builder.build(&HierarchyOptions::default(), &mut |_| Ok(()));
+                let point = LinkDefinition {
+                    at: pose,
+                    body: Some(Arc::new(body.unwrap())),
+                    ..link(None, JointKind::Prismatic, Vec3::z())
+                };
+                let cell = against(&space(vec![robot(3, vec![point])]), &world);
+                let class = QueryContext::new().classify(&cell, Configuration::Coordinates(&[0.0]));
+                assert_eq!(class.unwrap(), Class::Inside, "{x} at {pose:?}");
+            }
         }
     }
 }
