@@ -3076,6 +3076,9 @@ cstk_status cstk_octree_build_body(const cstk_octree *octree,
  * the octree. A C-object that is to be about the octree alone takes all objects of an environment that holds nothing else.
  * Do not move, attach or delete the objects one by one; those that are gone are not missed.
  *
+ * The objects stand at rounded places. So that there is no gap between them, each reaches over its neighbours by up to 2e-15 L, where L
+ * is how far it is from the octree's origin and that from the world's together; distances may be too small by twice that.
+ *
  * CSTK_ERROR_UNSUPPORTED for a snapshot.
  */
 cstk_status cstk_octree_place(cstk_octree *octree,
@@ -3085,9 +3088,11 @@ cstk_status cstk_octree_place(cstk_octree *octree,
                               cstk_destroy_fn destroy);
 
 /**
- * Moves an octree within its environment, in one change. CSTK_ERROR_NOT_FOUND if it is in none.
+ * Moves an octree within its environment, in one change. Its objects keep their ids unless it gets so much farther from the
+ * world's origin that they must reach over their neighbours by more. CSTK_ERROR_NOT_FOUND if it is in none.
  */
-cstk_status cstk_octree_move(cstk_octree *octree, const double *pose);
+cstk_status cstk_octree_move(cstk_octree *octree,
+                             const double *pose);
 
 /**
  * Takes an octree out of its environment, in one change; its cells stay. A no-op if it is in none.
@@ -4914,8 +4919,7 @@ enum cstk_motion_outcome
    */
   CSTK_MOTION_NEAR = 2,
   /**
-   * The limit of cstk_query_set_limit ended the proof; all before times[0] is proved free. (Where the class at the start or
-   * the distance at a contact already needs more, the call ends with CSTK_ERROR_LIMIT.)
+   * The limit of cstk_query_set_limit ended the proof, or the distance at a contact needs more; all before times[0] is proved free.
    */
   CSTK_MOTION_UNDECIDED = 3,
 };
@@ -6194,7 +6198,7 @@ typedef struct cstk_batch_options {
   uint32_t stop_at_hit;
   /**
    * Limits the work of each item as cstk_query_set_limit does: an item that needs more has the status CSTK_ERROR_LIMIT (a motion
-   * mostly the outcome CSTK_MOTION_UNDECIDED). Each item is then asked as by a new context, so that nothing depends on other items
+   * the outcome CSTK_MOTION_UNDECIDED). Each item is then asked as by a new context, so that nothing depends on other items
    * or threads; that takes longer. 0, the default, for no limit.
    */
   uint64_t limit;

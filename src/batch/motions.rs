@@ -44,7 +44,8 @@ impl Batch {
         let world = &World::of(cobject);
         let ask = |context: &mut QueryContext, item| {
             let ends = [starts.at(item), ends.at(item)];
-            let answer = context.motion_between_in(world, cobject, ends, options)?;
+            let found = context.motion_between_in(world, cobject, ends, options);
+            let answer = MotionAnswer::or_undecided(found, ends[0])?;
             let is_hit = answer.outcome != MotionOutcome::Free;
             Ok((answer, is_hit))
         };

@@ -37,11 +37,6 @@ impl Extent {
         (0..3).all(|k| self.low[k] <= other.low[k] && other.high[k] <= self.high[k])
     }
 
-    /// Whether one of its faces lies in the plane of the other's: the union of both may shrink if it is removed.
-    pub fn shares_a_side(&self, other: &Self) -> bool {
-        (0..3).any(|k| self.low[k] == other.low[k] || self.high[k] == other.high[k])
-    }
-
     /// The eight corners; bit k of a corner's index says whether it is high along axis k.
     pub fn corners(&self) -> [Vec3; 8] {
         let pick = |i: usize, axis: usize| [self.low, self.high][i >> axis & 1][axis];

@@ -262,6 +262,9 @@ pub unsafe extern "C" fn cstk_octree_build_body(
 /// the octree. A C-object that is to be about the octree alone takes all objects of an environment that holds nothing else.
 /// Do not move, attach or delete the objects one by one; those that are gone are not missed.
 ///
+/// The objects stand at rounded places. So that there is no gap between them, each reaches over its neighbours by up to 2e-15 L, where L
+/// is how far it is from the octree's origin and that from the world's together; distances may be too small by twice that.
+///
 /// CSTK_ERROR_UNSUPPORTED for a snapshot.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_octree_place(
@@ -284,7 +287,8 @@ pub unsafe extern "C" fn cstk_octree_place(
     })
 }
 
-/// Moves an octree within its environment, in one change. CSTK_ERROR_NOT_FOUND if it is in none.
+/// Moves an octree within its environment, in one change. Its objects keep their ids unless it gets so much farther from the
+/// world's origin that they must reach over their neighbours by more. CSTK_ERROR_NOT_FOUND if it is in none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_octree_move(
     octree: *mut cstk_octree,

@@ -12,6 +12,7 @@
 //! of p, and the same for R^T. Frames that are fixed to one another add a length to |y| alone.
 
 use super::statement::Carried;
+use crate::nonzero::length;
 use crate::pose::Vec3;
 use crate::robot::{JointKind, Link};
 use crate::space::Space;
@@ -182,7 +183,6 @@ impl Course<'_> {
         let joint = &self.link(number).joint;
         let q = &self.q0[offset.coordinate + joint.coordinate..][..joint.kind.nq()];
         let v = &self.v[offset.velocity + joint.velocity..][..joint.kind.nv()];
-        let length = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
         let farthest = |q: f64, v: f64| q.abs() + v.abs();
         let mut course = JointCourse {
             turn: 0.0,

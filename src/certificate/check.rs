@@ -46,6 +46,9 @@ impl Certificate {
         if threshold > 0.0 {
             cobject.require_one_metric()?;
         }
+        // As it was made: of the set without what is known of its parts.
+        let asked = cobject.without_known()?;
+        let cobject = asked.as_deref().unwrap_or(cobject);
         let world = &World::of(cobject);
         let start = Configuration::Coordinates(q0);
         let scene = &Scene::new(space, world, start, SceneMemory::default())?;

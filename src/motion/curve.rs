@@ -78,12 +78,7 @@ impl QueryContext {
                 tolerance: (options.tolerance / (to - from)).clamp(1e-12, 1.0),
                 ..*options
             };
-            let answer = match self.motion_on_piece(world, cobject, &piece.points, &within) {
-                Err(error) if error.kind == ErrorKind::Limit => {
-                    MotionAnswer::undecided_at(&piece.points[..space.nq()])
-                }
-                answer => answer?,
-            };
+            let answer = self.motion_on_piece(world, cobject, &piece.points, &within)?;
             let is_free = answer.outcome == MotionOutcome::Free;
             let times = answer.times.map(|t| (from + t * (to - from)).min(to));
             found = Some(MotionAnswer { times, ..answer });
@@ -115,7 +110,7 @@ impl QueryContext {
             end: None,
             kind: WayKind::Curve { controls: points },
         };
-        self.motion_on(way, options)
+        MotionAnswer::or_undecided(self.motion_on(way, options), q)
     }
 }
 

@@ -32,6 +32,6 @@ impl QueryContext {
             end: None,
             kind: WayKind::Stated(motion),
         };
-        self.motion_on(way, options)
+        MotionAnswer::or_undecided(self.motion_on(way, options), &motion.start)
     }
 }

@@ -13,7 +13,7 @@ use super::set_tree::SetTree;
 use super::start_contacts::StartContacts;
 use super::way::Way;
 use crate::cobject::{CObject, Class};
-use crate::error::{Error, Result};
+use crate::error::{Error, ErrorKind, Result};
 use crate::query::{Configuration, Distance, QueryContext, World, check_threshold};
 use crate::reused::emptied;
 use crate::space::Space;
@@ -84,6 +84,14 @@ impl MotionAnswer {
             distance: None,
         }
     }
+
+    /// The answer of a motion from q, also where the limit of work ended it before anything was proved.
+    pub(crate) fn or_undecided(found: Result<Self>, q: &[f64]) -> Result<Self> {
+        match found {
+            Err(error) if error.kind == ErrorKind::Limit => Ok(Self::undecided_at(q)),
+            found => found,
+        }
+    }
 }
 
 impl MotionOptions {
@@ -146,7 +154,8 @@ impl QueryContext {
         options: &MotionOptions,
     ) -> Result<MotionAnswer> {
         let world = &self.begin_motion(cobject, options)?;
-        self.motion_between_in(world, cobject, [q0, q1], options)
+        let found = self.motion_between_in(world, cobject, [q0, q1], options);
+        MotionAnswer::or_undecided(found, q0)
     }
 
     /// The same in a given world, with checked options.
@@ -332,7 +341,15 @@ impl QueryContext {
                 if !options.any_contact && way.line.cobject.require_one_metric().is_ok() =>
             {
                 let at = Configuration::Coordinates(&configuration);
-                Some(self.distance_in(way.line.world, way.line.cobject, at, f64::INFINITY)?)
+                match self.distance_in(way.line.world, way.line.cobject, at, f64::INFINITY) {
+                    Err(error) if error.kind == ErrorKind::Limit => {
+                        return Ok(MotionAnswer {
+                            times: [times[0]; 2],
+                            ..MotionAnswer::undecided_at(&way.at(times[0])?)
+                        });
+                    }
+                    distance => Some(distance?),
+                }
             }
             _ => None,
         };

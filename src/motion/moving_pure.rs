@@ -101,6 +101,11 @@ impl MovingPure {
         })
     }
 
+    /// Whether the whole way keeps out of it, as is known beforehand.
+    pub fn is_free(&self) -> bool {
+        !self.complement && self.parts.is_empty()
+    }
+
     /// What is known over an interval.
     pub fn over(&self, moment: &Moment) -> Result<SetVerdict> {
         if self.complement {

@@ -119,6 +119,8 @@ impl MovingSet<'_> {
             match leaf {
                 MovingLeaf::Pairs { .. } | MovingLeaf::Known { .. } => {}
                 MovingLeaf::Everything => *verdict = SetVerdict::Meets,
+                // Without parts it needs no place to be asked at.
+                MovingLeaf::Pure(pure) if pure.is_free() => *verdict = SetVerdict::Free,
                 MovingLeaf::Pure(_) => is_asked |= *verdict == SetVerdict::Undecided,
             }
         }

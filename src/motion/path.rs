@@ -189,12 +189,8 @@ impl QueryContext {
         let mut segment = 0;
         loop {
             step()?;
-            let motion = match path.ask(segment, |way| self.motion_on(way, options)) {
-                Err(error) if error.kind == ErrorKind::Limit => {
-                    return Ok(path.undecided_from(segment));
-                }
-                motion => motion?,
-            };
+            let found = path.ask(segment, |way| self.motion_on(way, options));
+            let motion = MotionAnswer::or_undecided(found, path.point(segment))?;
             if motion.outcome != MotionOutcome::Free || segment + 1 == path.segment_count() {
                 return Ok(PathAnswer { segment, motion });
             }

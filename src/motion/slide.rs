@@ -14,6 +14,7 @@ use super::way::Way;
 use crate::cobject::{CObject, PureShape, Set};
 use crate::error::{Error, ErrorKind, Result};
 use crate::query::{Configuration, ContactRecord, QueryContext, WitnessList, World};
+use crate::space::Space;
 
 /// How a slide ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,7 +119,7 @@ impl QueryContext {
             contacts,
         };
         // A touching robot may slide; one whose primitives overlap, or are closer than the margin, may not.
-        if overlaps(&here, options) {
+        if overlaps(space, &here, options) {
             return Ok(ended(SlideOutcome::Inside));
         }
         let length = norm(step);
@@ -227,7 +228,7 @@ impl QueryContext {
                 return Ok(None);
             }
             let there = self.slide_contacts(world, cobject, &reached, options, request.detail)?;
-            if overlaps(&there, options) {
+            if overlaps(space, &there, options) {
                 return Ok(None);
             }
             let contacts = approaches(&there, request.length, desired);
@@ -343,8 +344,18 @@ fn smallest_radius(motion: &LinearMotion) -> Result<f64> {
     Ok(own.chain(attached).fold(f64::INFINITY, f64::min))
 }
 
-fn overlaps(list: &WitnessList, options: &SlideOptions) -> bool {
-    let too_deep = -1e-9 * options.max_shell;
+/// Whether primitives overlap, or are closer than the margin: by more than slides leave of their shell, or of the largest body where the
+/// shell is larger than any.
+fn overlaps(space: &Space, list: &WitnessList, options: &SlideOptions) -> bool {
+    let radii = (0..space.link_count())
+        .filter_map(|link| space.body(link))
+        .map(|body| body.radius());
+    let largest = radii.fold(0.0, f64::max);
+    let size = match largest > 0.0 {
+        true => options.max_shell.min(largest),
+        false => options.max_shell,
+    };
+    let too_deep = -1e-9 * size;
     let is_too_deep = |contact: &ContactRecord| contact.clearance < too_deep;
     list.witnesses.iter().any(|witness| witness.overlapping)
         || list.contacts.iter().any(is_too_deep)

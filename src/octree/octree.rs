@@ -144,9 +144,17 @@ impl Octree {
                 self.resolution, other.resolution
             )));
         }
-        let mut cells = self.cells.clone();
         let mut changed = Vec::new();
-        other.cells.visit(WHOLE, 0, &mut |cube| changed.push(cube));
+        other.cells.visit(WHOLE, 0, &mut |cube| {
+            let (level, is_occupied) = self.cells.leaf(cube.low);
+            if !is_occupied || level < cube.level {
+                changed.push(cube);
+            }
+        });
+        if changed.is_empty() {
+            return Ok(());
+        }
+        let mut cells = self.cells.clone();
         for &cube in &changed {
             cells.set_cube(cube, true)?;
         }

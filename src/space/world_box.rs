@@ -1,6 +1,6 @@
 //! The world box: bounds for the links' origins.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::Vec3;
 
 /// The axis-aligned box that the links' origins must stay in; ends may be infinite.
@@ -34,11 +34,14 @@ impl WorldBox {
                     "the world box holds a NaN",
                 ));
             }
-            if self.low[i] > self.high[i] {
+            let [low, high] = [self.low[i], self.high[i]];
+            if low > high || low == f64::INFINITY || high == f64::NEG_INFINITY {
                 return Err(Error::invalid(format!(
-                    "the world box is empty along axis {i}: {} to {}",
-                    self.low[i], self.high[i]
+                    "the world box is empty along axis {i}: {low} to {high}"
                 )));
+            }
+            for end in [low, high].into_iter().filter(|end| end.is_finite()) {
+                require_coordinates(&[end], "end of the world box")?;
             }
         }
         Ok(())

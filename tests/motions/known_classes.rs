@@ -6,6 +6,7 @@ use std::sync::Arc;
 use cstk::cobject::{CObject, Class, PureShape};
 use cstk::error::ErrorKind;
 use cstk::motion::{GrowthOptions, MotionOptions, MotionOutcome, RegionOptions, RegionOutcome};
+use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, QueryContext};
 use cstk::robot::{Coordinate, JointKind};
 use cstk::space::Space;
@@ -270,6 +271,35 @@ fn certificates_take_nobodys_word() {
         .motion_certificate(&wrong, ends[0], ends[1], options)
         .unwrap();
     assert!(answer.outcome == MotionOutcome::Hit && certificate.is_none());
+}
+
+/// Certificates are made and checked of the set without what is said of its parts, wherever those are in it.
+#[test]
+fn certificates_of_sets_with_known_parts_are_accepted() {
+    let random = &mut Random::new(417);
+    let space = arm(random);
+    let block = cuboid([5.0; 3]).body;
+    let away = Pose::from_translation(Vec3::new(100.0, 0.0, 0.0));
+    let of = Arc::new(against(&space, &environment(&[(&block, away)]).0));
+    let ball = PureShape::Ball {
+        center: vec![0.0; 3],
+        radius: 1.0,
+    };
+    let within = pure(&space, ball, None);
+    let known = Arc::new(CObject::with_known(&of, &within, Class::Outside).unwrap());
+    let limits = pure(&space, PureShape::BeyondLimits, None);
+    let sets = [
+        CObject::union(&[known.clone(), limits.clone()]).unwrap(),
+        CObject::union(&[limits.clone(), known.clone()]).unwrap(),
+        CObject::intersection(&[known.clone(), limits]).unwrap(),
+    ];
+    let options = &MotionOptions::default();
+    let [q0, q1] = [&[0.0; 3], &[0.1; 3]];
+    for set in sets {
+        let made = QueryContext::new().motion_certificate(&set, q0, q1, options);
+        let (_, certificate) = made.unwrap();
+        certificate.unwrap().verify(&set, q0, q1, 0.0).unwrap();
+    }
 }
 
 #[test]

@@ -12,7 +12,7 @@ use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, QueryContext};
 use cstk::robot::{JointKind, LinkDefinition};
 
-use helpers::robots::{against, environment, link, robot, space};
+use helpers::robots::{against, against_with, environment, link, robot, space};
 use helpers::shapes::{cuboid, mesh};
 
 const GAPS: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
@@ -262,5 +262,33 @@ fn a_touching_pair_does_not_hide_a_near_one() {
         // The post begins at x = 1.9, the base reaches .5 ahead.
         assert!(x < 1.4, "{length}: {taken:?}");
         assert!(length > 1.4 || x == length, "{length}: {taken:?}");
+    }
+}
+
+/// However long the shell, and whatever moves: what is inside is not moved.
+#[test]
+fn a_start_inside_is_told_with_any_shell() {
+    let cube = cuboid([2.0; 3]).body;
+    let moving = LinkDefinition {
+        at: Pose::from_translation(Vec3::new(0.0, 10.0, 0.0)),
+        body: Some(cube.clone()),
+        ..link(None, JointKind::Prismatic, Vec3::x())
+    };
+    let resting = LinkDefinition {
+        body: Some(cube.clone()),
+        ..link(None, JointKind::Fixed, Vec3::x())
+    };
+    let space = space(vec![robot(3, vec![moving, resting])]);
+    let at = Pose::from_translation(Vec3::new(2.05, 0.0, 0.0));
+    let (world, _) = environment(&[(&cube, at)]);
+    let options = InducedOptions {
+        margin: 0.1,
+        ..InducedOptions::default()
+    };
+    let cell = against_with(&space, &world, options);
+    assert_eq!(class(&cell, &[0.0]), Class::Inside);
+    for shell in [0.5, 1e6, 1e8, 1e9, 1e20] {
+        let found = slide_once(&cell, &[0.0], &[-0.1], &SlideOptions::with_shell(shell));
+        assert_eq!(found.outcome, SlideOutcome::Inside, "shell {shell}");
     }
 }

@@ -349,6 +349,24 @@ fn a_change_replaces_only_the_objects_around_it() {
     assert_eq!(octree.cell_count(), (model.len() - 1) as u64);
 }
 
+/// What is there already stays as it is.
+#[test]
+fn cells_that_are_occupied_already_change_nothing() {
+    let mut random = Random::new(9);
+    let mut octree = Octree::new(0.1).unwrap();
+    let mut model = Model::new();
+    for _ in 0..40 {
+        random_change(&mut random, &mut octree, &mut model, 12);
+    }
+    let mut same = Octree::new(0.1).unwrap();
+    same.insert(&octree).unwrap();
+    let world = Arc::new(environment(&[]).0);
+    octree.place(&world, &Pose::identity(), None).unwrap();
+    let before = (ids(&world), world.snapshot().version);
+    octree.insert(&same).unwrap();
+    assert_eq!((ids(&world), world.snapshot().version), before);
+}
+
 /// A snapshot keeps its cells; an environment that refuses a change leaves the octree as it was.
 #[test]
 fn snapshots_stay_and_refused_changes_change_nothing() {

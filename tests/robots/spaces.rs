@@ -216,6 +216,27 @@ fn wrapping_and_clamping() {
     assert_eq!(space.beyond_limits(&clamped), None);
 }
 
+/// Of no box or an absurd one nothing could be shown.
+#[test]
+fn world_boxes_without_a_point_are_refused() {
+    let infinite = f64::INFINITY;
+    for (low, high) in [
+        (infinite, infinite),
+        (-infinite, -infinite),
+        (1.0, 0.0),
+        (-1e200, infinite),
+        (0.0, 1e200),
+        (f64::NAN, 1.0),
+    ] {
+        let world = WorldBox {
+            low: [0.0, low, 0.0],
+            high: [1.0, high, 1.0],
+        };
+        let error = Space::new(vec![of(&[JointKind::Prismatic])], &[], world).unwrap_err();
+        assert!(error.message.contains("world box"), "{}", error.message);
+    }
+}
+
 /// The world of §4.4's planar example, and what leaves it first.
 #[test]
 fn the_world_box_holds_the_links_origins() {

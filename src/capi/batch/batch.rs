@@ -36,7 +36,7 @@ pub struct cstk_batch_options {
     /// the status CSTK_ERROR_CANCELLED. Default 0.
     pub stop_at_hit: u32,
     /// Limits the work of each item as cstk_query_set_limit does: an item that needs more has the status CSTK_ERROR_LIMIT (a motion
-    /// mostly the outcome CSTK_MOTION_UNDECIDED). Each item is then asked as by a new context, so that nothing depends on other items
+    /// the outcome CSTK_MOTION_UNDECIDED). Each item is then asked as by a new context, so that nothing depends on other items
     /// or threads; that takes longer. 0, the default, for no limit.
     pub limit: u64,
 }

@@ -208,7 +208,8 @@ unsafe fn gradient_rows<'a>(
     count: usize,
     nv: usize,
 ) -> Result<Entries<'a, f64>, Failure> {
-    if !gradients.is_null() {
+    // The array of a batch without items may be NULL.
+    if !gradients.is_null() || (count == 0 && nv != 0) {
         require_width(nv, space.nv(), "nv", "velocities")?;
     } else if nv != 0 {
         let message = format!("nv must be 0 without gradients, not {nv}");

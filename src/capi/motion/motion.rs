@@ -59,8 +59,7 @@ pub enum cstk_motion_outcome {
     /// All before times[0] is proved free; up to times[1], at most the tolerance later, the motion comes so near the threshold that
     /// rounding decides. What comes after is not looked at.
     CSTK_MOTION_NEAR = 2,
-    /// The limit of cstk_query_set_limit ended the proof; all before times[0] is proved free. (Where the class at the start or
-    /// the distance at a contact already needs more, the call ends with CSTK_ERROR_LIMIT.)
+    /// The limit of cstk_query_set_limit ended the proof, or the distance at a contact needs more; all before times[0] is proved free.
     CSTK_MOTION_UNDECIDED = 3,
 }
 
