@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use cstk::body::{BodyBuilder, Mesh};
 use cstk::error::ErrorKind;
-use cstk::hierarchy::{Grouping, HierarchyOptions, WrapperKind};
+use cstk::hierarchy::{Grouping, HierarchyOptions, Pieces, WrapperKind};
 use cstk::pose::{Pose, Vec3};
 use cstk_scenes as scenes;
 
@@ -30,6 +30,10 @@ fn parts_answer_as_their_primitives_one_by_one() {
                 WrapperKind::Hull,
                 3.0 * (case % 2) as f64,
             ),
+        };
+        let how = HierarchyOptions {
+            pieces: [Pieces::Off, Pieces::Coplanar, Pieces::Patches][case / 3 % 3],
+            ..how
         };
         let mut whole = BodyBuilder::new(3).unwrap();
         let mut flat = BodyBuilder::new(3).unwrap();

@@ -17,9 +17,12 @@ pub fn convex_pieces(
     if pieces == Pieces::Off {
         return Ok(Vec::new());
     }
-    let first = Extent::of(primitives[0].bounding_points());
     let extents = primitives.iter().map(|p| Extent::of(p.bounding_points()));
-    let diameter = extents.fold(first, |all, e| all.union(&e)).diameter();
+    // A body of parts alone has no primitives of its own.
+    let Some(whole) = extents.reduce(|all, extent| all.union(&extent)) else {
+        return Ok(Vec::new());
+    };
+    let diameter = whole.diameter();
     let edges = SharedEdges::of(primitives);
     progress.at(0.1)?;
     let flat = coplanar_pieces(primitives, &edges, diameter);
