@@ -80,14 +80,6 @@ impl Path<'_> {
         });
         answer.map_err(|error| error.within(format_args!("segment {segment}")))
     }
-
-    /// The answer where the work ended before a segment's proof began.
-    fn undecided_from(&self, segment: usize) -> PathAnswer {
-        PathAnswer {
-            segment,
-            motion: MotionAnswer::undecided_at(self.point(segment)),
-        }
-    }
 }
 
 /// The numbers below `count`, those that lie far apart first.
@@ -171,7 +163,10 @@ impl QueryContext {
                 Ok(None) => {}
                 Ok(Some(motion)) => return Ok(Some(PathAnswer { segment, motion })),
                 Err(error) if error.kind == ErrorKind::Limit => {
-                    return Ok(Some(path.undecided_from(0)));
+                    return Ok(Some(PathAnswer {
+                        segment: 0,
+                        motion: MotionAnswer::undecided_at(path.point(0)),
+                    }));
                 }
                 Err(error) => return Err(error),
             }
