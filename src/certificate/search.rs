@@ -11,7 +11,7 @@ use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result};
 use crate::motion::{MotionAnswer, MotionOptions, MotionOutcome, checked_difference};
 use crate::pose::Vec3;
-use crate::query::{Configuration, QueryContext, Scene, SceneMemory, World};
+use crate::query::{Configuration, QueryContext, World};
 use crate::tolerance::LARGEST_COORDINATE;
 
 /// Where groups are apart at the middle of an interval, it is halved as long as the motion takes off no more than so many times
@@ -62,27 +62,25 @@ impl QueryContext {
     ) -> Result<(MotionAnswer, Option<Certificate>)> {
         let asked = cobject.without_known()?;
         let cobject = asked.as_deref().unwrap_or(cobject);
-        let v = checked_difference(cobject.space(), q0, q1)?;
-        let world = &self.begin_motion(cobject, options)?;
-        let start = Configuration::Coordinates(q0);
-        let scene = &Scene::new(cobject.space(), world, start, SceneMemory::default())?;
-        let statement = &Statement::of(cobject, scene, options.threshold)?;
-        let answer = self.motion_in(world, cobject, [q0, &v], q1, options)?;
-        if answer.outcome != MotionOutcome::Free {
-            return Ok((answer, None));
-        }
+        let ends = [q0, q1];
         let unshown = |outcome, times: [f64; 2]| MotionAnswer {
             outcome,
             times,
             configuration: cobject.space().interpolate(q0, q1, times[1]),
             distance: None,
         };
-        match self.search(statement, world, [q0, q1], options) {
-            Ok(certificate) => Ok((answer, Some(certificate))),
-            Err(Stop::Near(times)) => Ok((unshown(MotionOutcome::Near, times), None)),
-            Err(Stop::Exceeded) => Ok((unshown(MotionOutcome::Undecided, [1.0; 2]), None)),
-            Err(Stop::Error(error)) => Err(error),
-        }
+        self.with_statement(cobject, ends, options, |context, world, statement| {
+            let answer = context.motion_between_in(world, cobject, ends, options)?;
+            if answer.outcome != MotionOutcome::Free {
+                return Ok((answer, None));
+            }
+            match context.search(statement, world, ends, options) {
+                Ok(certificate) => Ok((answer, Some(certificate))),
+                Err(Stop::Near(times)) => Ok((unshown(MotionOutcome::Near, times), None)),
+                Err(Stop::Exceeded) => Ok((unshown(MotionOutcome::Undecided, [1.0; 2]), None)),
+                Err(Stop::Error(error)) => Err(error),
+            }
+        })
     }
 
     /// Looks for a certificate without the proof of [`QueryContext::motion`]; `None` where it finds none. For tests of the one by the
@@ -94,17 +92,35 @@ impl QueryContext {
         q1: &[f64],
         options: &MotionOptions,
     ) -> Result<Option<Certificate>> {
+        let ends = [q0, q1];
+        self.with_statement(
+            cobject,
+            ends,
+            options,
+            |context, world, statement| match context.search(statement, world, ends, options) {
+                Ok(certificate) => Ok(Some(certificate)),
+                Err(Stop::Near(_)) => Ok(None),
+                Err(Stop::Exceeded) => context.scratch.meter().check().map(|()| None),
+                Err(Stop::Error(error)) => Err(error),
+            },
+        )
+    }
+
+    /// Checks a motion, and hands on what a certificate of it has to show.
+    fn with_statement<T>(
+        &mut self,
+        cobject: &CObject,
+        [q0, q1]: [&[f64]; 2],
+        options: &MotionOptions,
+        show: impl FnOnce(&mut Self, &World, &Statement) -> Result<T>,
+    ) -> Result<T> {
         checked_difference(cobject.space(), q0, q1)?;
         let world = &self.begin_motion(cobject, options)?;
         let start = Configuration::Coordinates(q0);
-        let scene = &Scene::new(cobject.space(), world, start, SceneMemory::default())?;
-        let statement = &Statement::of(cobject, scene, options.threshold)?;
-        match self.search(statement, world, [q0, q1], options) {
-            Ok(certificate) => Ok(Some(certificate)),
-            Err(Stop::Near(_)) => Ok(None),
-            Err(Stop::Exceeded) => self.scratch.meter().check().map(|()| None),
-            Err(Stop::Error(error)) => Err(error),
-        }
+        self.with_scene(cobject, world, start, |context, scene| {
+            let statement = &Statement::of(cobject, scene, options.threshold)?;
+            show(context, world, statement)
+        })
     }
 
     fn search(
@@ -226,16 +242,7 @@ impl Search<'_> {
             ..*self.options
         };
         let [q, reached] = [start, end].map(|time| self.measure.configuration(time));
-        let v = self
-            .measure
-            .course
-            .v
-            .iter()
-            .map(|rate| rate * (end - start));
-        let v: Vec<f64> = v.collect();
-        let found = self
-            .context
-            .motion_in(self.world, set, [&q, &v], &reached, &options)?;
+        let found = (self.context).motion_between_in(self.world, set, [&q, &reached], &options)?;
         match found.outcome {
             MotionOutcome::Undecided => Err(Stop::Exceeded),
             outcome => Ok(outcome == MotionOutcome::Free),

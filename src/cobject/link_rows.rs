@@ -10,6 +10,7 @@ pub struct LinkRows {
     /// The bodies of all pairs.
     pub bodies: IndexSet,
     /// No pair is in two rows.
+    /// In order of first bodies, then of eights.
     pub rows: Vec<LinkRow>,
 }
 
@@ -46,6 +47,13 @@ impl LinkRows {
             rows: seconds.into_iter().map(row).collect(),
         }
     }
+
+    /// Whether two bodies are a pair, in this order.
+    pub fn contain(&self, [first, second]: [usize; 2]) -> bool {
+        let key = (first as u32, second as u32 / 8);
+        let found = (self.rows).binary_search_by_key(&key, |row| (row.first, row.eight));
+        found.is_ok_and(|at| self.rows[at].seconds >> (second % 8) & 1 == 1)
+    }
 }
 
 #[cfg(test)]
@@ -57,7 +65,11 @@ mod tests {
         let pairs: Vec<[usize; 2]> = (0..40)
             .flat_map(|i| [[i, (7 * i + 3) % 40], [i, (i + 20) % 40]])
             .collect();
-        let LinkRows { bodies, rows } = LinkRows::new(40, pairs.iter().copied());
+        let rows = LinkRows::new(40, pairs.iter().copied());
+        for pair in (0..40).flat_map(|i| (0..40).map(move |j| [i, j])) {
+            assert_eq!(rows.contain(pair), pairs.contains(&pair), "{pair:?}");
+        }
+        let LinkRows { bodies, rows } = rows;
         assert!(bodies.iter().eq(0..40));
         let of_row = |row: &LinkRow| {
             let LinkRow {

@@ -1,8 +1,7 @@
 //! The least distance along a whole motion. Distances at some times bound it from above; only proofs over the whole motion bound
 //! it from below.
 
-use super::linear_motion::LinearMotion;
-use super::motion::{MotionOptions, MotionOutcome, checked_difference};
+use super::motion::{MotionOptions, MotionOutcome};
 use super::set_tree::SetTree;
 use super::valley::{Height, Valley};
 use super::way::Way;
@@ -181,15 +180,9 @@ impl QueryContext {
         let asked = cobject.without_known()?;
         let cobject = asked.as_deref().unwrap_or(cobject);
         options.check_for(cobject)?;
-        let v = &checked_difference(cobject.space(), q0, q1)?;
         let world = &self.look(cobject);
-        let line = LinearMotion {
-            world,
-            cobject,
-            q: q0,
-            v,
-        };
-        self.clearance_on(&Way::straight_to(line, q1), options)
+        let ask = |way: &Way| self.clearance_on(way, options);
+        Way::between(world, cobject, [q0, q1], ask)
     }
 
     /// The same on a way, with options that were checked for its set.

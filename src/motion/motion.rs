@@ -16,7 +16,6 @@ use crate::cobject::{CObject, Class};
 use crate::error::{Error, ErrorKind, Result};
 use crate::query::{Configuration, Distance, QueryContext, World, check_threshold};
 use crate::reused::emptied;
-use crate::space::Space;
 
 /// Where any contact will do, these eighths of a motion at most are looked at before a proof begins, in this order: most motions that
 /// planners ask for are not free, and one configuration inside says so sooner than a proof fails. Of the motions that an RRT-Connect
@@ -166,14 +165,8 @@ impl QueryContext {
         [q0, q1]: [&[f64]; 2],
         options: &MotionOptions,
     ) -> Result<MotionAnswer> {
-        let v = &checked_difference(cobject.space(), q0, q1)?;
-        let line = LinearMotion {
-            world,
-            cobject,
-            q: q0,
-            v,
-        };
-        self.sampled_or_proved(&Way::straight_to(line, q1), options)
+        let ask = |way: &Way| self.sampled_or_proved(way, options);
+        Way::between(world, cobject, [q0, q1], ask)
     }
 
     /// The same from q with velocity v for a unit of time.
@@ -213,25 +206,6 @@ impl QueryContext {
             }
         }
         self.motion_on(way, options)
-    }
-
-    /// The same from q with velocity v to `end`, which they sum up to but for their rounding, in a world: within the work of a call that
-    /// [`Self::begin_motion`] began.
-    pub(crate) fn motion_in(
-        &mut self,
-        world: &World,
-        cobject: &CObject,
-        [q, v]: [&[f64]; 2],
-        end: &[f64],
-        options: &MotionOptions,
-    ) -> Result<MotionAnswer> {
-        let line = LinearMotion {
-            world,
-            cobject,
-            q,
-            v,
-        };
-        self.motion_on(&Way::straight_to(line, end), options)
     }
 
     /// Checks what all motions need; takes the world.
@@ -287,10 +261,11 @@ impl QueryContext {
             for leaf in &tree.leaves {
                 gathering.add(leaf, scene, context)?;
             }
-            if gathering.needs_start && confirm(context, 0.0)? {
-                return Ok(Proof::Contact([0.0, 0.0]));
-            }
-            let crowds = gathering.crowds(scene, &mut memory.crowds);
+            let starts_inside = gathering.needs_start && confirm(context, 0.0)?;
+            let crowds = match starts_inside {
+                true => Vec::new(),
+                false => gathering.crowds(scene, &mut memory.crowds),
+            };
             let Gathering { leaves, pairs, .. } = gathering;
             let set = MovingSet {
                 way: Some(way),
@@ -299,11 +274,15 @@ impl QueryContext {
                 pairs,
                 crowds,
             };
-            if set.pairs.iter().any(MovingPair::needs_poses) {
-                kinematics.need_poses();
-            }
-            let search = &mut memory.search;
-            let proof = prove(&set, &mut kinematics, limits, context, confirm, search);
+            let proof = if starts_inside {
+                Ok(Proof::Contact([0.0, 0.0]))
+            } else {
+                if set.pairs.iter().any(MovingPair::needs_poses) {
+                    kinematics.need_poses();
+                }
+                let search = &mut memory.search;
+                prove(&set, &mut kinematics, limits, context, confirm, search)
+            };
             memory.kinematics = kinematics.into_memory();
             memory.pairs = emptied(set.pairs);
             let boxes = set.crowds.into_iter().map(Crowd::into_boxes);
@@ -321,11 +300,14 @@ impl QueryContext {
         options: &MotionOptions,
     ) -> Result<bool> {
         let q = way.at(t)?;
+        let LinearMotion { world, cobject, .. } = way.line;
         if options.threshold == 0.0 {
-            return Ok(self.classify_in(way.line.world, way.line.cobject, &q)? == Class::Inside);
+            return Ok(self.classify_in(world, cobject, &q)? == Class::Inside);
         }
-        let scene = &way.scene(&q)?;
-        self.set_within(way.line.cobject, scene, options.threshold)
+        let at = Configuration::Coordinates(&q);
+        self.with_scene(cobject, world, at, |context, scene| {
+            context.set_within(cobject, scene, options.threshold)
+        })
     }
 
     pub(super) fn answer(
@@ -380,16 +362,4 @@ fn times_sampled_first(way: &Way) -> impl Iterator<Item = f64> {
     };
     let asked = SAMPLED_FIRST.into_iter().filter(is_asked);
     asked.map(|eighths| f64::from(eighths) / 8.0)
-}
-
-/// The velocity that leads from q0 to q1 in a unit of time.
-pub(crate) fn checked_difference(space: &Space, q0: &[f64], q1: &[f64]) -> Result<Vec<f64>> {
-    for (q, name) in [(q0, "q0"), (q1, "q1")] {
-        space
-            .check_configuration(q)
-            .map_err(|error| error.within(name))?;
-    }
-    let v = space.difference(q0, q1);
-    space.check_velocity(&v, "velocity")?;
-    Ok(v)
 }

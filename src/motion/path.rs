@@ -1,6 +1,5 @@
 //! Paths: polylines through configurations, each segment a motion, all in one state of the world.
 
-use super::linear_motion::LinearMotion;
 use super::motion::{MotionAnswer, MotionOptions, MotionOutcome};
 use super::way::Way;
 use crate::cobject::CObject;
@@ -68,16 +67,7 @@ impl Path<'_> {
         let q = self.point(segment);
         let rests = self.points.len() == space.nq();
         let end = self.point(if rests { segment } else { segment + 1 });
-        let v = &space.difference(q, end);
-        let answer = space.check_velocity(v, "velocity").and_then(|()| {
-            let line = LinearMotion {
-                world,
-                cobject,
-                q,
-                v,
-            };
-            query(&Way::straight_to(line, end))
-        });
+        let answer = Way::between(world, cobject, [q, end], query);
         answer.map_err(|error| error.within(format_args!("segment {segment}")))
     }
 }

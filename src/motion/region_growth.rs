@@ -189,7 +189,9 @@ impl QueryContext {
         options.check()?;
         let space = cobject.space();
         space.check_configuration(q)?;
-        check_weights(space, weights)?;
+        if let Some(weights) = weights {
+            space.check_weights(weights)?;
+        }
         let world = &self.look(cobject);
         if self.classify_in(world, cobject, q)? == Class::Inside {
             return Err(Error::invalid(
@@ -374,19 +376,5 @@ impl Growth<'_> {
         }
         let Region { low, high } = self.region;
         Ok(GrownRegion { low, high, sides })
-    }
-}
-
-fn check_weights(space: &Space, weights: Option<&[f64]>) -> Result<()> {
-    let Some(weights) = weights else {
-        return Ok(());
-    };
-    space.check_velocity(weights, "list of weights")?;
-    match weights.iter().position(|weight| *weight < 0.0) {
-        None => Ok(()),
-        Some(k) => Err(Error::invalid(format!(
-            "weight {k} is negative: {}",
-            weights[k]
-        ))),
     }
 }

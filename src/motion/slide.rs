@@ -61,6 +61,16 @@ fn approaches(list: &WitnessList, length: f64, desired: f64) -> Vec<Approach<'_>
     all
 }
 
+/// Where a slide led.
+pub(super) struct Slid {
+    /// How it ended.
+    pub outcome: SlideOutcome,
+    /// The configuration reached; the start unless the robot moved.
+    pub configuration: Vec<f64>,
+    /// The number of contacts that constrained the step.
+    contacts: usize,
+}
+
 /// What all attempts of one slide share.
 struct SlideRequest<'a> {
     world: &'a World,
@@ -68,6 +78,10 @@ struct SlideRequest<'a> {
     q: &'a [f64],
     here: &'a WitnessList,
     options: &'a SlideOptions,
+    /// What touches, and what may still touch after a step.
+    allowance: TouchAllowance,
+    /// Contacts of less clearance overlap.
+    too_deep: f64,
     /// The length of the requested step.
     length: f64,
     detail: Detail,
@@ -92,10 +106,22 @@ impl QueryContext {
         let cobject = asked.as_deref().unwrap_or(cobject);
         // One state of the world for the whole slide: the proof must not combine distances of several.
         let world = &self.look(cobject);
-        self.slide_in(world, cobject, q, step, options)
+        let slid = self.slide_in(world, cobject, q, step, options)?;
+        let before = self.distance_at(world, cobject, q)?;
+        let after = match slid.outcome {
+            SlideOutcome::Moved => self.distance_at(world, cobject, &slid.configuration)?,
+            SlideOutcome::Inside | SlideOutcome::Blocked => before,
+        };
+        Ok(SlideStep {
+            outcome: slid.outcome,
+            configuration: slid.configuration,
+            distance_before: before,
+            distance_after: after,
+            contacts: slid.contacts,
+        })
     }
 
-    /// The same in a given world, with checked options.
+    /// The same in a given world, with checked options, and without distances.
     pub(super) fn slide_in(
         &mut self,
         world: &World,
@@ -103,23 +129,21 @@ impl QueryContext {
         q: &[f64],
         step: &[f64],
         options: &SlideOptions,
-    ) -> Result<SlideStep> {
+    ) -> Result<Slid> {
         let space = cobject.space();
         space.check_configuration(q)?;
         space.check_velocity(step, "step")?;
         require_union(cobject)?;
-        let distance = self.distance_at(world, cobject, q)?;
         let here = self.slide_contacts(world, cobject, q, options, Detail::Nearest)?;
         let contacts = here.contacts.len();
-        let ended = |outcome| SlideStep {
+        let ended = |outcome| Slid {
             outcome,
             configuration: q.to_vec(),
-            distance_before: distance,
-            distance_after: distance,
             contacts,
         };
+        let too_deep = too_deep(space, options);
         // A touching robot may slide; one whose primitives overlap, or are closer than the margin, may not.
-        if overlaps(space, &here, options) {
+        if here.overlaps(too_deep) {
             return Ok(ended(SlideOutcome::Inside));
         }
         let length = norm(step);
@@ -144,6 +168,11 @@ impl QueryContext {
             q,
             here: &here,
             options,
+            allowance: TouchAllowance {
+                distance: TOUCH_FRACTION * options.max_shell.min(smallest_radius(world, space)),
+                max_count: options.max_witnesses,
+            },
+            too_deep,
             length,
             detail: Detail::Nearest,
             intervals_left: Cell::new(MAX_INTERVALS_OF_SLIDE),
@@ -156,13 +185,12 @@ impl QueryContext {
             (request.here, request.detail) = (&all, Detail::All);
             reached = self.find_step(&request, step)?;
         }
-        let Some(reached) = reached else {
-            return Ok(ended(SlideOutcome::Blocked));
-        };
-        Ok(SlideStep {
-            distance_after: self.distance_at(world, cobject, &reached)?,
-            configuration: reached,
-            ..ended(SlideOutcome::Moved)
+        Ok(match reached {
+            Some(configuration) => Slid {
+                configuration,
+                ..ended(SlideOutcome::Moved)
+            },
+            None => ended(SlideOutcome::Blocked),
         })
     }
 
@@ -228,7 +256,7 @@ impl QueryContext {
                 return Ok(None);
             }
             let there = self.slide_contacts(world, cobject, &reached, options, request.detail)?;
-            if overlaps(space, &there, options) {
+            if there.overlaps(request.too_deep) {
                 return Ok(None);
             }
             let contacts = approaches(&there, request.length, desired);
@@ -267,15 +295,11 @@ impl QueryContext {
 
     /// Whether the robot is proved to keep clear of the C-object on a motion from the start.
     fn way_is_free(&mut self, request: &SlideRequest, motion: LinearMotion) -> Result<bool> {
-        let SlideRequest { options, .. } = request;
-        let allowance = TouchAllowance {
-            distance: TOUCH_FRACTION * options.max_shell.min(smallest_radius(&motion)?),
-            max_count: options.max_witnesses,
-        };
+        let allowance = &request.allowance;
         let mut start = StartContacts::default();
         let clearances = request.here.contacts.iter().map(|c| c.clearance);
         if clearances.fold(f64::INFINITY, f64::min) <= allowance.distance {
-            match self.start_contacts(&motion, &allowance)? {
+            match self.start_contacts(&motion, allowance)? {
                 Some(found) => start = found,
                 None => return Ok(false),
             }
@@ -335,30 +359,37 @@ fn require_union(cobject: &CObject) -> Result<()> {
 }
 
 /// The least radius of a body that a link carries, its own or an attached object.
-fn smallest_radius(motion: &LinearMotion) -> Result<f64> {
-    let space = motion.cobject.space();
-    let links = (0..space.link_count()).filter_map(|link| space.body(link));
-    let own = links.map(|body| body.radius());
-    let scene = &motion.scene(motion.q)?;
-    let attached = scene.held().iter().map(|held| held.object.body.radius());
-    Ok(own.chain(attached).fold(f64::INFINITY, f64::min))
+fn smallest_radius(world: &World, space: &Space) -> f64 {
+    let attached = world.attached(space);
+    let attached = attached.map(|(_, object, _)| object.body.radius());
+    link_radii(space)
+        .chain(attached)
+        .fold(f64::INFINITY, f64::min)
 }
 
-/// Whether primitives overlap, or are closer than the margin: by more than slides leave of their shell, or of the largest body where the
-/// shell is larger than any.
-fn overlaps(space: &Space, list: &WitnessList, options: &SlideOptions) -> bool {
-    let radii = (0..space.link_count())
-        .filter_map(|link| space.body(link))
-        .map(|body| body.radius());
-    let largest = radii.fold(0.0, f64::max);
+impl WitnessList {
+    /// Whether primitives overlap, or are nearer to each other than a clearance below 0.
+    fn overlaps(&self, too_deep: f64) -> bool {
+        let is_too_deep = |contact: &ContactRecord| contact.clearance < too_deep;
+        self.witnesses.iter().any(|witness| witness.overlapping)
+            || self.contacts.iter().any(is_too_deep)
+    }
+}
+
+/// Clearances below this are of primitives that overlap, or are closer than the margin: by more than slides leave of their shell, or of the
+/// largest body where the shell is larger than any.
+fn too_deep(space: &Space, options: &SlideOptions) -> f64 {
+    let largest = link_radii(space).fold(0.0, f64::max);
     let size = match largest > 0.0 {
         true => options.max_shell.min(largest),
         false => options.max_shell,
     };
-    let too_deep = -1e-9 * size;
-    let is_too_deep = |contact: &ContactRecord| contact.clearance < too_deep;
-    list.witnesses.iter().any(|witness| witness.overlapping)
-        || list.contacts.iter().any(is_too_deep)
+    -1e-9 * size
+}
+
+fn link_radii(space: &Space) -> impl Iterator<Item = f64> {
+    let links = (0..space.link_count()).filter_map(|link| space.body(link));
+    links.map(|body| body.radius())
 }
 
 fn norm(v: &[f64]) -> f64 {

@@ -4,7 +4,7 @@ use super::slide_options::SlideOptions;
 use crate::cobject::{CObject, PureSet, Set};
 use crate::error::Result;
 use crate::query::{
-    CandidateFilter, Configuration, Group, QueryContext, Scene, SceneMemory, Target, WitnessList,
+    CandidateFilter, Configuration, Group, QueryContext, Scene, Target, WitnessList,
     WitnessRequest, World, pure_witnesses,
 };
 
@@ -37,33 +37,30 @@ impl QueryContext {
         options: &SlideOptions,
         detail: Detail,
     ) -> Result<WitnessList> {
-        let scene = &Scene::new(
-            cobject.space(),
-            world,
-            Configuration::Coordinates(q),
-            SceneMemory::default(),
-        )?;
-        let mut search = ContactSearch {
-            options,
-            detail,
-            scene,
-            lists: Vec::new(),
-        };
-        match cobject.set() {
-            Set::Pure(set) => search.add_set(set)?,
-            set => {
-                if let Set::Union { induced, .. } = set {
-                    search.add_bodies(self, induced)?;
-                }
-                for part in set.parts() {
-                    if let Set::Pure(set) = part.set() {
-                        search.add_set(set)?;
+        let at = Configuration::Coordinates(q);
+        self.with_scene(cobject, world, at, |context, scene| {
+            let mut search = ContactSearch {
+                options,
+                detail,
+                scene,
+                lists: Vec::new(),
+            };
+            match cobject.set() {
+                Set::Pure(set) => search.add_set(set)?,
+                set => {
+                    if let Set::Union { induced, .. } = set {
+                        search.add_bodies(context, induced)?;
+                    }
+                    for part in set.parts() {
+                        if let Set::Pure(set) = part.set() {
+                            search.add_set(set)?;
+                        }
                     }
                 }
             }
-        }
-        let request = search.request(f64::INFINITY);
-        Ok(WitnessList::merged(search.lists, scene, request))
+            let request = search.request(f64::INFINITY);
+            Ok(WitnessList::merged(search.lists, scene, request))
+        })
     }
 }
 

@@ -1,11 +1,9 @@
 //! Slides that go on until they arrive or are blocked: what a local planner does between two subgoals.
 
 use super::goal_box::GoalBox;
-use super::linear_motion::LinearMotion;
 use super::motion::{MotionOptions, MotionOutcome};
-use super::slide::{SlideOutcome, SlideStep};
+use super::slide::{Slid, SlideOutcome};
 use super::slide_options::SlideOptions;
-use super::way::Way;
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result, require_coordinates, require_finite};
 use crate::query::{QueryContext, World};
@@ -185,7 +183,12 @@ impl QueryContext {
         space.check_configuration(q)?;
         let goal = GoalBox::checked(space, goal[0], goal[1])?;
         if let Some(weights) = weights {
-            check_weights(space, weights)?;
+            space.check_weights(weights)?;
+            if let Some(i) = weights.iter().position(|&weight| weight == 0.0) {
+                return Err(Error::invalid(format!(
+                    "weight {i} is 0; it must be larger than 0"
+                )));
+            }
         }
         let world = &self.look(cobject);
         let mut walk = Walk {
@@ -256,7 +259,7 @@ impl QueryContext {
     }
 
     /// One sliding step towards the goal.
-    fn slide_towards(&mut self, walk: &mut Walk) -> Result<SlideStep> {
+    fn slide_towards(&mut self, walk: &mut Walk) -> Result<Slid> {
         let mut step = walk.step_towards(&walk.target());
         walk.steps += 1;
         let slide = &walk.options.slide;
@@ -278,11 +281,7 @@ impl QueryContext {
             return Ok(());
         }
         walk.motions += 1;
-        let first_contact = MotionOptions {
-            tolerance: CONTACT_TOLERANCE,
-            ..MotionOptions::default()
-        };
-        let times = self.straight(walk, &target, &first_contact)?;
+        let times = self.straight(walk, &target)?;
         if times.is_none() {
             walk.go(target);
             return Ok(());
@@ -293,44 +292,20 @@ impl QueryContext {
         }
         // The rounded place has a proof of its own.
         let before = space.interpolate(&walk.q, &target, part);
-        let any_contact = MotionOptions {
-            any_contact: true,
-            ..first_contact
-        };
-        if space.contains(&before)? && self.straight(walk, &before, &any_contact)?.is_none() {
+        if space.contains(&before)? && self.straight(walk, &before)?.is_none() {
             walk.go(before);
         }
         Ok(())
     }
 
     /// The times of contact on the straight motion to a configuration; `None` if it is proved free.
-    fn straight(
-        &mut self,
-        walk: &Walk,
-        to: &[f64],
-        options: &MotionOptions,
-    ) -> Result<Option<[f64; 2]>> {
-        let &Walk { world, cobject, .. } = walk;
-        let v = &cobject.space().difference(&walk.q, to);
-        let line = LinearMotion {
-            world,
-            cobject,
-            q: &walk.q,
-            v,
+    fn straight(&mut self, walk: &Walk, to: &[f64]) -> Result<Option<[f64; 2]>> {
+        let options = MotionOptions {
+            tolerance: CONTACT_TOLERANCE,
+            ..MotionOptions::default()
         };
-        let way = Way::straight_to(line, to);
-        let answer = self.motion_on(&way, options)?;
+        let ends = [&walk.q[..], to];
+        let answer = self.motion_between_in(walk.world, walk.cobject, ends, &options)?;
         Ok((answer.outcome != MotionOutcome::Free).then_some(answer.times))
-    }
-}
-
-fn check_weights(space: &Space, weights: &[f64]) -> Result<()> {
-    space.check_velocity(weights, "weight vector")?;
-    match weights.iter().position(|&weight| weight <= 0.0) {
-        None => Ok(()),
-        Some(i) => Err(Error::invalid(format!(
-            "weight {i} is {}; it must be larger than 0",
-            weights[i]
-        ))),
     }
 }

@@ -10,8 +10,8 @@ use crate::cobject::{Induced, PureSet, PureShape};
 use crate::error::Result;
 use crate::pair::PrimitiveScratch;
 use crate::query::{
-    CacheKey, CandidateFilter, Group, PureAt, QueryContext, Scene, Target, WitnessList,
-    WitnessRequest, pure_witnesses,
+    CacheKey, CandidateFilter, Configuration, Group, PureAt, QueryContext, Scene, Target,
+    WitnessList, WitnessRequest, pure_witnesses,
 };
 
 /// How far a pair that touches at the start may move before the interval proof follows it.
@@ -266,9 +266,12 @@ impl Near<'_> {
         obstacle: &impl Obstacle,
         time: f64,
     ) -> Result<bool> {
-        let at = self.motion.at(time);
-        let scene = &self.motion.scene(&at)?;
-        Ok(obstacle.lower(context, scene, self.allowance.distance)? > 0.0)
+        let LinearMotion { world, cobject, .. } = *self.motion;
+        let q = self.motion.at(time);
+        let at = Configuration::Coordinates(&q);
+        context.with_scene(cobject, world, at, |context, scene| {
+            Ok(obstacle.lower(context, scene, self.allowance.distance)? > 0.0)
+        })
     }
 
     /// Whether, to first order, no contact of a touching start comes nearer up to a time.

@@ -5,11 +5,12 @@ use super::linear_motion::LinearMotion;
 use super::set_tree::SetTree;
 use super::span::Span;
 use super::stated_motion::StatedMotion;
-use crate::cobject::{Around, ClearCells};
+use crate::cobject::{Around, CObject, ClearCells};
 use crate::error::Result;
 use crate::pose::Pose;
-use crate::query::Scene;
+use crate::query::{Scene, World};
 use crate::robot::{LinkMotions, bezier};
+use crate::space::Space;
 use crate::tolerance::EPSILON;
 
 /// Added to times: more than a configuration is rounded where its motion starts, or goes, far from it.
@@ -57,12 +58,24 @@ impl<'a> Way<'a> {
         }
     }
 
-    /// The straight motion to a configuration, whose difference from the start is the velocity.
-    pub fn straight_to(line: LinearMotion<'a>, end: &'a [f64]) -> Self {
-        Self {
-            end: Some(end),
-            ..Self::straight(line)
-        }
+    /// Asks about the straight motion between two configurations, which are checked.
+    pub fn between<T>(
+        world: &World,
+        cobject: &CObject,
+        [q0, q1]: [&[f64]; 2],
+        ask: impl FnOnce(&Way) -> Result<T>,
+    ) -> Result<T> {
+        let v = &checked_difference(cobject.space(), q0, q1)?;
+        let line = LinearMotion {
+            world,
+            cobject,
+            q: q0,
+            v,
+        };
+        ask(&Way {
+            end: Some(q1),
+            ..Way::straight(line)
+        })
     }
 
     /// The configuration at a time; of a box the one in its middle.
@@ -167,4 +180,16 @@ impl<'a> Way<'a> {
             WayKind::Box { .. } => space.link_motions_in_box(self.line.q, self.line.v),
         }
     }
+}
+
+/// The velocity that leads from q0 to q1 in a unit of time.
+pub(crate) fn checked_difference(space: &Space, q0: &[f64], q1: &[f64]) -> Result<Vec<f64>> {
+    for (q, name) in [(q0, "q0"), (q1, "q1")] {
+        space
+            .check_configuration(q)
+            .map_err(|error| error.within(name))?;
+    }
+    let v = space.difference(q0, q1);
+    space.check_velocity(&v, "velocity")?;
+    Ok(v)
 }

@@ -267,8 +267,10 @@ impl<'a> Scene<'a> {
             _ => return None,
         };
         match (&term.pairs, s_side) {
-            (BodyPairs::Links { pairs, .. }, SSide::Link(s)) => {
-                let is_held = r.attached == 0 && pairs.contains(&[r.link, s]);
+            (BodyPairs::Links { rows, .. }, SSide::Link(s)) => {
+                let bodies = self.space().bodies();
+                let pair = [bodies.number(r.link)?, bodies.number(s)?];
+                let is_held = r.attached == 0 && rows.contain(pair);
                 is_held.then_some(())?;
                 Some([self.link(r.link)?, self.link(s)?])
             }

@@ -32,6 +32,18 @@ impl Space {
         require_coordinates(v, &format!("{name} entry"))
     }
 
+    /// Refuses weights of velocities that have the wrong number of entries, or an entry that is negative or no usable number.
+    pub fn check_weights(&self, weights: &[f64]) -> Result<()> {
+        self.check_velocity(weights, "list of weights")?;
+        match weights.iter().position(|&weight| weight < 0.0) {
+            None => Ok(()),
+            Some(i) => Err(Error::invalid(format!(
+                "weight {i} is negative: {}",
+                weights[i]
+            ))),
+        }
+    }
+
     /// The configuration reached from `q` with velocity `v` after a unit of time. Circles are not wrapped.
     pub fn step(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
         let mut reached = q.to_vec();

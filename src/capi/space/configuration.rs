@@ -6,7 +6,7 @@ use crate::capi::handle;
 use crate::capi::input::{Output, OutputSlice, array, numbers, slice};
 use crate::capi::space::space::{absent, cstk_space};
 use crate::capi::status::status::cstk_status;
-use crate::error::{Error, require_coordinates};
+use crate::error::require_coordinates;
 use crate::pose::{Pose, Vec3};
 use crate::robot::RobotState;
 use crate::space::{Sampler, Space};
@@ -273,10 +273,7 @@ unsafe fn checked_weights<'a>(
     }
     // SAFETY: not NULL; as the caller states.
     let given = unsafe { slice(weights, space.nv(), "weights")? };
-    require_coordinates(given, "weight")?;
-    if let Some(i) = given.iter().position(|weight| *weight < 0.0) {
-        return Err(Error::invalid(format!("weight {i} is negative: {}", given[i])).into());
-    }
+    space.check_weights(given)?;
     Ok(Some(given))
 }
 
