@@ -178,7 +178,7 @@ impl GrowingBox {
         let axes: [[f64; 3]; 3] = each3(|i| each3(|k| self.axes.axes[(k, i)]));
         let (mut low, mut high) = (self.low, self.high);
         for four in points {
-            // Unrolled: of a loop over the axes, compilers for AVX-512 make gathers and scatters, which took 40 % of a refit.
+            // Unrolled: of a loop over the axes compilers made gathers and scatters, which took 40 % of a refit.
             let along = each3(|i| along64(four, &axes[i]));
             low = each3(|i| low[i].min(along[i]));
             high = each3(|i| high[i].max(along[i]));
