@@ -42,38 +42,43 @@ std::vector<bool> links_with_bodies(const Problem &problem) {
     return found;
 }
 
+/// The links that a number of the first axes place, against the obstacles and each other.
+cstk::CObject obstacles_of_axes(const Problem &problem, std::size_t axes, const std::vector<std::size_t> &placed) {
+    const std::vector<bool> has_body = links_with_bodies(problem);
+    std::vector<std::uint32_t> links;
+    for (std::uint32_t link = 0; link < placed.size(); ++link) {
+        if (placed[link] > 0 && placed[link] <= axes && has_body[link]) {
+            links.push_back(link);
+        }
+    }
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    for (const auto &pair : problem.link_pairs) {
+        if (placed[pair[0]] <= axes && placed[pair[1]] <= axes) {
+            pairs.push_back(pair);
+        }
+    }
+    const cstk::CObject among_links = cstk::CObject::induced_links(problem.space, pairs);
+    std::vector<cstk::CObject> parts = {among_links.with_shell(problem.slide.link_shell)};
+    if (!links.empty()) {
+        parts.push_back(
+            cstk::CObject::induced(problem.space, problem.environment, cstk::induced_options(), links));
+    }
+    return cstk::CObject::union_of(parts);
+}
+
 } // namespace
 
 std::vector<cstk::CObject> obstacles_of_first_axes(const Problem &problem) {
     const std::vector<std::size_t> placed = axes_that_place(problem);
-    const std::vector<bool> has_body = links_with_bodies(problem);
     std::vector<cstk::CObject> sets;
     for (std::size_t axes = 0; axes <= problem.axes.size(); ++axes) {
-        std::vector<std::uint32_t> links;
-        for (std::uint32_t link = 0; link < placed.size(); ++link) {
-            if (placed[link] > 0 && placed[link] <= axes && has_body[link]) {
-                links.push_back(link);
-            }
-        }
-        std::vector<std::array<std::uint32_t, 2>> pairs;
-        for (const auto &pair : problem.link_pairs) {
-            if (placed[pair[0]] <= axes && placed[pair[1]] <= axes) {
-                pairs.push_back(pair);
-            }
-        }
-        const cstk::CObject among_links = cstk::CObject::induced_links(problem.space, pairs);
-        std::vector<cstk::CObject> parts = {among_links.with_shell(problem.slide.link_shell)};
-        if (!links.empty()) {
-            parts.push_back(cstk::CObject::induced(problem.space, problem.environment,
-                                                   cstk::induced_options(), links));
-        }
-        sets.push_back(cstk::CObject::union_of(parts));
+        sets.push_back(obstacles_of_axes(problem, axes, placed));
     }
     return sets;
 }
 
 cstk::CObject obstacles_of(const Problem &problem) {
-    return obstacles_of_first_axes(problem).back();
+    return obstacles_of_axes(problem, problem.axes.size(), axes_that_place(problem));
 }
 
 } // namespace sandros

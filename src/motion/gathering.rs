@@ -44,6 +44,8 @@ fn unstated_speeds(term: &Induced) -> Error {
 /// Gathers the leaves of a set on a motion, and the pairs that the motion may bring near.
 pub(super) struct Gathering<'a, 'k> {
     way: &'a Way<'a>,
+    /// [`Way::rounding`] of it.
+    rounding: Vec<f64>,
     rates: PairRates<'a>,
     middle: Option<&'k mut Kinematics<'a>>,
     threshold: f64,
@@ -73,6 +75,7 @@ impl<'a, 'k> Gathering<'a, 'k> {
     ) -> Self {
         Self {
             way,
+            rounding: way.rounding(),
             rates: PairRates::new(motions),
             middle,
             threshold,
@@ -307,9 +310,8 @@ impl<'a, 'k> Gathering<'a, 'k> {
         let leaf = self.leaves.len() as u32;
         let line = &self.way.line;
         let speed = || {
-            let rounding = &self.way.rounding();
             let off_the_way = LinearMotion {
-                v: rounding,
+                v: &self.rounding,
                 ..*line
             };
             [line.rate(scene, target), off_the_way.rate(scene, target)]
@@ -411,7 +413,7 @@ impl<'a> Gathering<'a, '_> {
         let of_coordinates =
             cobject
                 .space()
-                .motion_bound_of_radius(link, radius, q, &self.way.rounding());
+                .motion_bound_of_radius(link, radius, q, &self.rounding);
         rounding.of_places(radius, self.share()) + of_coordinates
     }
 

@@ -13,6 +13,7 @@ use super::step_limits::step_limits;
 use super::way::Way;
 use crate::cobject::{CObject, PureShape, Set};
 use crate::error::{Error, ErrorKind, Result};
+use crate::nonzero;
 use crate::query::{Configuration, ContactRecord, QueryContext, WitnessList, World};
 use crate::space::Space;
 
@@ -57,7 +58,7 @@ const MAX_CORRECTIONS: usize = 3;
 /// The contacts that a step of this length can bring nearer by more than the tolerance.
 fn approaches(list: &WitnessList, length: f64, desired: f64) -> Vec<Approach<'_>> {
     let mut all = list.approaches();
-    all.retain(|a| norm(a.gradient) * 4.0 * length > 0.5 * FALL_SHORT * desired);
+    all.retain(|a| nonzero::length(a.gradient) * 4.0 * length > 0.5 * FALL_SHORT * desired);
     all
 }
 
@@ -146,7 +147,7 @@ impl QueryContext {
         if here.overlaps(too_deep) {
             return Ok(ended(SlideOutcome::Inside));
         }
-        let length = norm(step);
+        let length = nonzero::length(step);
         if length == 0.0 || !space.contains(q)? {
             return Ok(ended(SlideOutcome::Blocked));
         }
@@ -236,7 +237,7 @@ impl QueryContext {
         } = request;
         let space = cobject.space();
         let desired = options.desired_distance;
-        let length = norm(wish);
+        let length = nonzero::length(wish);
         let contacts = approaches(here, request.length, desired);
         let near = nearest_movable(&contacts);
         // Within the desired distance, the nearest contact sets the distance to keep.
@@ -267,14 +268,14 @@ impl QueryContext {
             corrections += 1;
             let limits = step_limits(space, &reached, length)?;
             match spring_step(&contacts, &limits, keep) {
-                Some(correction) if norm(&correction) <= length => {
+                Some(correction) if nonzero::length(&correction) <= length => {
                     reached = space.clamp(&space.step(&reached, &correction));
                 }
                 _ => return Ok(None),
             }
         };
         let way = space.displacement(q, &reached);
-        let (gain, moved) = (dot(&way, wish) / length, norm(&way));
+        let (gain, moved) = (dot(&way, wish) / length, nonzero::length(&way));
         let gains = moved > LEAST_GAIN * length && gain > LEAST_GAIN * moved;
         let keeps = nearest >= keep - FALL_SHORT * desired;
         // A push alone must gain more distance than advancing steps may lose, or the two would alternate forever.
@@ -392,10 +393,6 @@ fn link_radii(space: &Space) -> impl Iterator<Item = f64> {
     links.map(|body| body.radius())
 }
 
-fn norm(v: &[f64]) -> f64 {
-    dot(v, v).sqrt()
-}
-
 /// A step out to the desired distance.
 struct OutwardStep {
     step: Vec<f64>,
@@ -420,7 +417,7 @@ impl OutwardStep {
             .iter()
             .map(|a| a.clearance + dot(a.gradient, &step));
         let is_worth = after.fold(desired, f64::min) - near >= DEAD_BAND * desired;
-        let part = (length / norm(&step)).min(1.0);
+        let part = (length / nonzero::length(&step)).min(1.0);
         Ok(is_worth.then(|| Self { step }.part(part)))
     }
 

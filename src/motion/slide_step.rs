@@ -1,6 +1,7 @@
 //! The report's `slide-step` and `compute-spring-step` (Appendix A): steps that respect contacts, to first order.
 
 use super::half_spaces::{HalfSpace, dot, nearest_in_half_spaces};
+use crate::nonzero;
 use crate::query::WitnessList;
 
 /// A contact's clearance, and how a step changes it.
@@ -49,7 +50,7 @@ pub fn slide_step(
         least: (desired - a.clearance).min(0.0),
     }));
     let along = nearest_in_half_spaces(step, &half_spaces)?;
-    let [requested, left] = [step, &along].map(|s| dot(s, s).sqrt());
+    let [requested, left] = [step, &along[..]].map(nonzero::length);
     if left <= LEAST_GAIN * requested || dot(&along, step) <= LEAST_GAIN * left * requested {
         return None;
     }
@@ -57,7 +58,7 @@ pub fn slide_step(
         let stretch = (requested / left).min(MAX_STRETCH);
         let wish: Vec<f64> = step.iter().map(|x| x * stretch).collect();
         if let Some(longer) = nearest_in_half_spaces(&wish, &half_spaces)
-            && dot(&longer, &longer).sqrt() <= 1.5 * requested
+            && nonzero::length(&longer) <= 1.5 * requested
         {
             return Some(longer);
         }
@@ -103,7 +104,7 @@ pub fn spring_step(
 /// The contacts that some step changes. Where the joints move both bodies together, the gradient is rounding error, whose
 /// direction means nothing.
 fn movable<'s, 'a>(approaches: &'s [Approach<'a>]) -> impl Iterator<Item = &'s Approach<'a>> {
-    let length = |a: &Approach| dot(a.gradient, a.gradient).sqrt();
+    let length = |a: &Approach| nonzero::length(a.gradient);
     let largest = approaches.iter().map(length).fold(0.0, f64::max);
     approaches
         .iter()

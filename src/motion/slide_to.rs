@@ -6,6 +6,7 @@ use super::slide::{Slid, SlideOutcome};
 use super::slide_options::SlideOptions;
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result, require_coordinates, require_finite};
+use crate::nonzero;
 use crate::query::{QueryContext, World};
 use crate::space::Space;
 
@@ -267,7 +268,7 @@ impl QueryContext {
         if walk.is_shorter_way(&slid.configuration) {
             return Ok(slid);
         }
-        let part = SAFE_TURN / step.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let part = SAFE_TURN / nonzero::length(&step);
         step.iter_mut().for_each(|x| *x *= part.min(1.0));
         self.slide_in(walk.world, walk.cobject, &walk.q, &step, slide)
     }
