@@ -1,32 +1,102 @@
 //! Objects that serve one call at a time.
 
-use std::sync::{Mutex, TryLockError};
+use try_lock::TryLock;
 
 use super::boundary::Failure;
 use crate::error::{Error, ErrorKind};
 
-/// Runs an action with exclusive access to the object; [`ErrorKind::Busy`] if another call has it. `mend` repairs an object
-/// that a panic may have left half changed.
-#[inline(always)]
-pub fn exclusively<T>(
-    object: &Mutex<T>,
-    name: &str,
-    mend: impl FnOnce(&mut T),
-    action: impl FnOnce(&mut T) -> Result<(), Failure>,
-) -> Result<(), Failure> {
-    match object.try_lock() {
-        Ok(mut object) => action(&mut object),
-        Err(TryLockError::Poisoned(poisoned)) => {
-            let mut inner = poisoned.into_inner();
-            mend(&mut inner);
-            object.clear_poison();
-            action(&mut inner)
+/// An object that one call at a time may have. Nobody waits for it, so that letting go of it is a plain store: what a
+/// [`std::sync::Mutex`] takes for that, and for panics, is a sixth of a query of two spheres.
+#[derive(Default)]
+pub struct Exclusive<T>(TryLock<Guarded<T>>);
+
+#[derive(Default)]
+struct Guarded<T> {
+    object: T,
+    /// A call that began has not ended: while it runs, and after a panic.
+    is_changing: bool,
+}
+
+impl<T> Exclusive<T> {
+    pub fn new(object: T) -> Self {
+        Self(TryLock::new(Guarded {
+            object,
+            is_changing: false,
+        }))
+    }
+
+    /// Runs an action with the object; [`ErrorKind::Busy`] if another call has it. `mend` repairs an object that a panic may have
+    /// left half changed.
+    #[inline(always)]
+    pub fn with(
+        &self,
+        name: &str,
+        mend: impl FnOnce(&mut T),
+        action: impl FnOnce(&mut T) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let Some(mut guarded) = self.0.try_lock() else {
+            return Err(busy(name));
+        };
+        if guarded.is_changing {
+            mend(&mut guarded.object);
         }
-        Err(TryLockError::WouldBlock) => Err(busy(name)),
+        guarded.is_changing = true;
+        let answer = action(&mut guarded.object);
+        guarded.is_changing = false;
+        answer
     }
 }
 
 #[cold]
 fn busy(name: &str) -> Failure {
     Error::new(ErrorKind::Busy, format!("{name} is in use by another call")).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+
+    use super::*;
+
+    #[test]
+    fn what_a_panic_left_is_mended_once() {
+        let number = Exclusive::new(1);
+        let mut mended = 0;
+        let mut ask = |panics: bool| {
+            catch_unwind(AssertUnwindSafe(|| {
+                let mend = |number: &mut i32| {
+                    *number = 1;
+                    mended += 1;
+                };
+                let action = |number: &mut i32| {
+                    assert_eq!(*number, 1);
+                    *number = 2;
+                    assert!(!panics);
+                    *number = 1;
+                    Ok(())
+                };
+                number.with("it", mend, action)
+            }))
+        };
+        for panics in [false, true, false, false] {
+            assert_eq!(ask(panics).is_err(), panics);
+        }
+        assert_eq!(mended, 1);
+    }
+
+    #[test]
+    fn one_call_at_a_time_has_it() {
+        let outer = Exclusive::new(());
+        let called = outer.with(
+            "it",
+            |()| {},
+            |()| {
+                let within = outer.with("it", |()| {}, |()| unreachable!("it is taken"));
+                assert!(within.is_err());
+                Ok(())
+            },
+        );
+        assert!(called.is_ok());
+        assert!(outer.with("it", |()| {}, |()| Ok(())).is_ok());
+    }
 }

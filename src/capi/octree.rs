@@ -15,12 +15,12 @@
 //! ```
 
 use std::ffi::{c_char, c_void};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use super::body::body::cstk_body;
 use super::boundary::{Failure, guard};
 use super::environment::environment::cstk_environment;
-use super::exclusive::exclusively;
+use super::exclusive::Exclusive;
 use super::handle;
 use super::handle::Noun;
 use super::hierarchy::options::cstk_hierarchy_options;
@@ -37,7 +37,7 @@ pub struct cstk_octree {
     _opaque: [u8; 0],
 }
 
-pub(crate) struct SharedOctree(Mutex<Octree>);
+pub(crate) struct SharedOctree(Exclusive<Octree>);
 
 impl Noun for SharedOctree {
     type Handle = cstk_octree;
@@ -52,7 +52,7 @@ fn with_octree(
     // A callback may release the caller's last reference meanwhile.
     let octree = handle::share::<SharedOctree>(octree, "octree")?;
     // Cells and objects are changed wholly or not at all.
-    exclusively(&octree.0, "the octree", |_| {}, action)
+    octree.0.with("the octree", |_| {}, action)
 }
 
 /// Creates an octree without occupied cells. Cell (i, j, k) reaches from i to i + 1 times `resolution` along x, and so on, in
@@ -66,7 +66,7 @@ pub unsafe extern "C" fn cstk_octree_create(
 ) -> cstk_status {
     guard(|| {
         let out = Output::checked(out, "out")?;
-        let octree = SharedOctree(Mutex::new(Octree::new(resolution)?));
+        let octree = SharedOctree(Exclusive::new(Octree::new(resolution)?));
         out.write(handle::create(Arc::new(octree)));
         Ok(())
     })
@@ -89,7 +89,7 @@ pub unsafe extern "C" fn cstk_octree_load(
         let out = Output::checked(out, "out")?;
         // SAFETY: checked for NULL; the caller states that it is terminated.
         let file = unsafe { path(file, "file")? };
-        let octree = SharedOctree(Mutex::new(Octree::load(file, min_occupancy)?));
+        let octree = SharedOctree(Exclusive::new(Octree::load(file, min_occupancy)?));
         out.write(handle::create(Arc::new(octree)));
         Ok(())
     })
@@ -168,12 +168,8 @@ pub unsafe extern "C" fn cstk_octree_insert(
             return Ok(());
         }
         with_octree(octree, |octree| {
-            exclusively(
-                &other.0,
-                "the other octree",
-                |_| {},
-                |other| Ok(octree.insert(other)?),
-            )
+            let insert = |other: &mut Octree| Ok(octree.insert(other)?);
+            other.0.with("the other octree", |_| {}, insert)
         })
     })
 }

@@ -19,7 +19,7 @@ use crate::capi::at_configuration::answers::{
 };
 use crate::capi::body::body::cstk_body;
 use crate::capi::status::status::cstk_status;
-use crate::query::{Distance, GivenPair};
+use crate::query::{Distance, GivenPair, TakeDistance};
 
 /// Checks the arguments that all pair queries share, and runs one.
 unsafe fn run<T>(
@@ -51,6 +51,18 @@ unsafe fn run<T>(
     })
 }
 
+/// Writes a distance where the caller wants it.
+struct Written(Output<cstk_distance_result>);
+
+impl TakeDistance for Written {
+    type Taken = ();
+
+    #[inline(always)]
+    fn take(self, distance: Distance) {
+        self.0.write((&distance).into());
+    }
+}
+
 /// Writes the distance of body a at pose_a from body b at pose_b, and the nearest primitive pair. Poses are 12 doubles,
 /// row-major [R | t], the body's frame in the world. Distances above `max_distance` are not computed: the result is then
 /// CSTK_DISTANCE_BEYOND_MAX. Pass INFINITY for no maximum.
@@ -74,10 +86,8 @@ pub unsafe extern "C" fn cstk_pair_distance(
             pose_b,
             out,
             |state, pair, out| {
-                let write = |distance: Distance| out.write((&distance).into());
-                Ok(state
-                    .context
-                    .take_given_distance(pair, max_distance, write)?)
+                let context = &mut state.context;
+                Ok(context.take_given_distance(pair, max_distance, Written(out))?)
             },
         )
     }

@@ -11,10 +11,10 @@
 //! check(cstk_query_release(query));
 //! ```
 
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use super::boundary::{Failure, guard};
-use super::exclusive::exclusively;
+use super::exclusive::Exclusive;
 use super::handle;
 use super::handle::Noun;
 use super::input::{Output, start};
@@ -65,7 +65,7 @@ pub(super) struct State {
     pub poses: Vec<Pose>,
 }
 
-pub(super) struct Query(Mutex<State>);
+pub(super) struct Query(Exclusive<State>);
 
 impl Noun for Query {
     type Handle = cstk_query;
@@ -173,7 +173,7 @@ fn exclusively_with(
     query: &Query,
     action: impl FnOnce(&mut State) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    exclusively(&query.0, "the query context", State::renew, action)
+    (query.0).with("the query context", State::renew, action)
 }
 
 /// Creates a query context.
@@ -181,7 +181,7 @@ fn exclusively_with(
 pub unsafe extern "C" fn cstk_query_create(out: *mut *mut cstk_query) -> cstk_status {
     guard(|| {
         let out = Output::checked(out, "out")?;
-        out.write(handle::create(Arc::new(Query(Mutex::default()))));
+        out.write(handle::create(Arc::new(Query(Exclusive::default()))));
         Ok(())
     })
 }

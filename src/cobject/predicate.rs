@@ -17,12 +17,19 @@ pub trait Predicate: Send + Sync {
         true
     }
 
-    /// Whether distances are exact; else they are lower bounds.
-    fn is_exact(&self) -> bool;
+    /// Whether distances are exact; else, as by default, they are lower bounds.
+    fn is_exact(&self) -> bool {
+        false
+    }
 
-    /// Whether distances inside are minus the depth, the exact distance from the complement.
-    fn knows_depth(&self) -> bool;
+    /// Whether distances inside are minus the depth, the exact distance from the complement; by default they are not.
+    fn knows_depth(&self) -> bool {
+        false
+    }
 
-    /// Writes the derivative of the distance, one entry per velocity; returns false if it is not known.
-    fn gradient(&self, q: &[f64], row: &mut [f64]) -> Result<bool>;
+    /// Writes the derivative of the distance, one entry per velocity; returns false if it is not known, as by default.
+    fn gradient(&self, q: &[f64], row: &mut [f64]) -> Result<bool> {
+        let _ = (q, row);
+        Ok(false)
+    }
 }

@@ -3,7 +3,7 @@
 
 use super::answer::Distance;
 use super::context::{QueryContext, check_threshold};
-use super::pairs::OnePrimitive;
+use super::pairs::{OnePrimitive, TakeDistance};
 use super::target::{Parties, Placement};
 use crate::body::Body;
 use crate::error::Result;
@@ -72,12 +72,12 @@ impl QueryContext {
         &mut self,
         pair: &GivenPair,
         max_distance: f64,
-        take: impl FnOnce(Distance) -> T,
+        take: impl TakeDistance<Taken = T>,
     ) -> Result<T> {
         check_threshold(max_distance, "max_distance")?;
         self.scratch.meter_mut().start_call();
         let Some(only) = pair.of_one_primitive() else {
-            return Ok(take(self.read_distance(pair, max_distance)?));
+            return Ok(take.rarely(self.read_distance(pair, max_distance)?));
         };
         with_widest(DistanceOf {
             context: self,
@@ -137,14 +137,14 @@ struct DistanceOf<'a, F> {
     take: F,
 }
 
-impl<T, F: FnOnce(Distance) -> T> Work for DistanceOf<'_, F> {
-    type Output = Result<T>;
+impl<F: TakeDistance> Work for DistanceOf<'_, F> {
+    type Output = Result<F::Taken>;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, lanes: I) -> Result<T> {
+    fn run<I: Instructions>(self, lanes: I) -> Result<F::Taken> {
         let (context, pair, most, take) = (self.context, self.pair, self.max_distance, self.take);
         if !pair.are_plain(lanes) {
-            return Ok(take(context.read_distance(pair, most)?));
+            return Ok(take.rarely(context.read_distance(pair, most)?));
         }
         let parties = Parties::of_bodies(pair.bodies);
         // A pairing for each way: that of the spheres and capsules stays in registers.

@@ -52,6 +52,7 @@ pub use given_pair::GivenPair;
 pub use object_pairs::{ObjectPair, ObjectPairList};
 pub use object_sets::{ObjectFilter, ObjectSets};
 pub use pair_depth::PairDepth;
+pub use pairs::TakeDistance;
 pub(crate) use pairs::check_dimensions;
 pub use pseudo_normal::{PseudoNormal, Shell};
 pub(crate) use pure_answer::PureAt;

@@ -89,6 +89,32 @@ impl<'a> OnePrimitive<'a> {
     }
 }
 
+/// What becomes of a distance. Closures will do, but they may be compiled by themselves: an answer of this size then goes through memory,
+/// which takes as long as measuring two spheres.
+pub trait TakeDistance: Sized {
+    /// What it becomes.
+    type Taken;
+
+    /// Takes it.
+    fn take(self, distance: Distance) -> Self::Taken;
+
+    /// The same for answers that are seldom given: compiled once.
+    #[cold]
+    #[inline(never)]
+    fn rarely(self, distance: Distance) -> Self::Taken {
+        self.take(distance)
+    }
+}
+
+impl<T, F: FnOnce(Distance) -> T> TakeDistance for F {
+    type Taken = T;
+
+    #[inline(always)]
+    fn take(self, distance: Distance) -> T {
+        self(distance)
+    }
+}
+
 /// The answer for bodies of one primitive each.
 #[inline(always)]
 fn singles_answer(
@@ -174,7 +200,7 @@ impl QueryContext {
         }
     }
 
-    /// The same of a sphere or capsule each. Handed to `take`: moving an answer of this size takes as long as measuring two spheres.
+    /// The same of a sphere or capsule each.
     #[inline(always)]
     pub(super) fn rounds_distance<T>(
         &mut self,
@@ -182,19 +208,19 @@ impl QueryContext {
         rounds: [&Round; 2],
         parties: &Parties,
         max_distance: f64,
-        take: impl FnOnce(Distance) -> T,
+        take: impl TakeDistance<Taken = T>,
     ) -> Result<T> {
         self.count_body_pair()?;
         if !are_spheres(rounds) && pairing.sphere_bound() > max_distance {
-            return Ok(take(Distance::beyond(max_distance, f64::INFINITY)));
+            return Ok(take.rarely(Distance::beyond(max_distance, f64::INFINITY)));
         }
         self.scratch.for_one_pair()?;
         let error = pairing.precision.error;
         // Not one branch's result or the other's: choosing would copy it.
         if let Some(nearest) = Rounds::new(pairing, rounds).nearest() {
-            return Ok(take(singles_answer(nearest, parties, error, max_distance)));
+            return Ok(take.take(singles_answer(nearest, parties, error, max_distance)));
         }
-        Ok(take(self.close_distance(*pairing, *parties, max_distance)))
+        Ok(take.rarely(self.close_distance(*pairing, *parties, max_distance)))
     }
 
     /// The same of a sphere and a box, a cylinder or a cone.
@@ -205,21 +231,21 @@ impl QueryContext {
         ball: OnlyBall,
         parties: &Parties,
         max_distance: f64,
-        take: impl FnOnce(Distance) -> T,
+        take: impl TakeDistance<Taken = T>,
     ) -> Result<T> {
         self.count_body_pair()?;
         if pairing.sphere_bound() > max_distance {
-            return Ok(take(Distance::beyond(max_distance, f64::INFINITY)));
+            return Ok(take.rarely(Distance::beyond(max_distance, f64::INFINITY)));
         }
         let scratch = self.scratch.for_one_pair()?;
         let error = pairing.precision.error;
         let Some(beside) = BallAndSolid::new(pairing, ball, scratch) else {
-            return Ok(take(self.close_distance(*pairing, *parties, max_distance)));
+            return Ok(take.rarely(self.close_distance(*pairing, *parties, max_distance)));
         };
         if let Some(nearest) = beside.nearest() {
-            return Ok(take(singles_answer(nearest, parties, error, max_distance)));
+            return Ok(take.take(singles_answer(nearest, parties, error, max_distance)));
         }
-        Ok(take(self.close_distance(*pairing, *parties, max_distance)))
+        Ok(take.rarely(self.close_distance(*pairing, *parties, max_distance)))
     }
 
     /// The same where their cores are too close together for closed forms. Given copies, so that callers may keep theirs in registers.
@@ -245,20 +271,18 @@ impl QueryContext {
         pairing: &Pairing,
         parties: &Parties,
         max_distance: f64,
-        take: impl FnOnce(Distance) -> T,
+        take: impl TakeDistance<Taken = T>,
     ) -> Result<T> {
         self.count_body_pair()?;
         if pairing.sphere_bound() > max_distance {
-            return Ok(take(Distance::beyond(max_distance, f64::INFINITY)));
+            return Ok(take.rarely(Distance::beyond(max_distance, f64::INFINITY)));
         }
         let scratch = self.scratch.for_one_pair()?;
         let error = pairing.precision.error;
-        Ok(take(
-            match Singles::new(pairing, scratch).nearest(max_distance) {
-                Some(nearest) => singles_answer(nearest, parties, error, max_distance),
-                None => Distance::beyond(max_distance, f64::INFINITY),
-            },
-        ))
+        Ok(match Singles::new(pairing, scratch).nearest(max_distance) {
+            Some(nearest) => take.take(singles_answer(nearest, parties, error, max_distance)),
+            None => take.rarely(Distance::beyond(max_distance, f64::INFINITY)),
+        })
     }
 
     /// Whether the distance of two bodies may be at most `threshold`: doubt within rounding counts as within.

@@ -150,14 +150,6 @@ impl Predicate for Shallow {
     fn is_exact(&self) -> bool {
         true
     }
-
-    fn knows_depth(&self) -> bool {
-        false
-    }
-
-    fn gradient(&self, _: &[f64], _: &mut [f64]) -> Result<bool> {
-        Ok(false)
-    }
 }
 
 #[test]

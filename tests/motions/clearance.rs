@@ -407,18 +407,6 @@ impl Predicate for Beyond {
         self.asked.fetch_add(1, Ordering::Relaxed);
         Ok(Some(0.5 * (2.0 - q[0])))
     }
-
-    fn is_exact(&self) -> bool {
-        false
-    }
-
-    fn knows_depth(&self) -> bool {
-        false
-    }
-
-    fn gradient(&self, _: &[f64], _: &mut [f64]) -> Result<bool> {
-        Ok(false)
-    }
 }
 
 /// Of a bound no distance is known that the lower bound could come near: what is proved is told after a few proofs.

@@ -246,10 +246,6 @@ impl Predicate for Far {
     fn knows_depth(&self) -> bool {
         true
     }
-
-    fn gradient(&self, _: &[f64], _: &mut [f64]) -> Result<bool> {
-        Ok(false)
-    }
 }
 
 #[test]

@@ -174,12 +174,6 @@ impl Predicate for Ellipse {
     fn distance(&self, q: &[f64]) -> Result<Option<f64>> {
         Ok(Some(0.5 * (q[0].hypot(2.0 * q[2]) - 1.0)))
     }
-    fn is_exact(&self) -> bool {
-        false
-    }
-    fn knows_depth(&self) -> bool {
-        false
-    }
     fn gradient(&self, q: &[f64], row: &mut [f64]) -> Result<bool> {
         row.fill(0.0);
         let root = q[0].hypot(2.0 * q[2]);
@@ -292,9 +286,6 @@ fn predicates_are_checked() {
         }
         fn knows_depth(&self) -> bool {
             true
-        }
-        fn gradient(&self, _: &[f64], _: &mut [f64]) -> Result<bool> {
-            Ok(false)
         }
     }
     let space = mixed();

@@ -1,12 +1,12 @@
 //! The handle, the options and the result of batches.
 
 use std::ffi::c_void;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use super::call::Call;
 use crate::batch::{Batch, BatchOptions};
 use crate::capi::boundary::{Failure, guard};
-use crate::capi::exclusive::exclusively;
+use crate::capi::exclusive::Exclusive;
 use crate::capi::handle;
 use crate::capi::handle::Noun;
 use crate::capi::input::{OptionsStruct, Output, options_or_default, write_defaults};
@@ -87,7 +87,7 @@ pub struct cstk_batch_result {
     pub reserved: [u64; 4],
 }
 
-pub(super) struct Batches(Mutex<Batch>);
+pub(super) struct Batches(Exclusive<Batch>);
 
 impl Noun for Batches {
     type Handle = cstk_batch;
@@ -111,7 +111,7 @@ pub(super) unsafe fn with_batch(
     // SAFETY: checked for size and cookie.
     let options = unsafe { options_or_default(options, "options")? }.into();
     let renew = |batch: &mut Batch| *batch = Batch::new();
-    exclusively(&batches.0, "the batch", renew, |batch| {
+    batches.0.with("the batch", renew, |batch| {
         action(Call {
             batch,
             options: &options,
@@ -125,7 +125,7 @@ pub(super) unsafe fn with_batch(
 pub unsafe extern "C" fn cstk_batch_create(out: *mut *mut cstk_batch) -> cstk_status {
     guard(|| {
         let out = Output::checked(out, "out")?;
-        out.write(handle::create(Arc::new(Batches(Mutex::default()))));
+        out.write(handle::create(Arc::new(Batches(Exclusive::default()))));
         Ok(())
     })
 }

@@ -1,12 +1,12 @@
 //! Builders of bodies.
 
 use std::ffi::{c_char, c_void};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use crate::body::{Body, BodyBuilder, Mesh};
 use crate::capi::body::body::cstk_body;
 use crate::capi::boundary::{Failure, guard};
-use crate::capi::exclusive::exclusively;
+use crate::capi::exclusive::Exclusive;
 use crate::capi::handle;
 use crate::capi::handle::Noun;
 use crate::capi::hierarchy::options::cstk_hierarchy_options;
@@ -20,7 +20,7 @@ pub struct cstk_body_builder {
     _opaque: [u8; 0],
 }
 
-pub(crate) struct Builder(Mutex<BodyBuilder>);
+pub(crate) struct Builder(Exclusive<BodyBuilder>);
 
 impl Noun for Builder {
     type Handle = cstk_body_builder;
@@ -35,7 +35,7 @@ pub(crate) fn with_builder(
     // A callback may release the caller's last reference meanwhile.
     let builder = handle::share::<Builder>(builder, "builder")?;
     // Additions are made whole or not at all, so a panic leaves the builder sound.
-    exclusively(&builder.0, "the builder", |_| {}, action)
+    builder.0.with("the builder", |_| {}, action)
 }
 
 /// Creates an empty builder for bodies of dimension 2 (planar worlds: all z are 0, polygons are solid) or 3 (polygons are
@@ -48,7 +48,7 @@ pub unsafe extern "C" fn cstk_body_builder_create(
 ) -> cstk_status {
     guard(|| {
         let out = Output::checked(out, "out")?;
-        let builder = Builder(Mutex::new(BodyBuilder::new(dimension)?));
+        let builder = Builder(Exclusive::new(BodyBuilder::new(dimension)?));
         out.write(handle::create(Arc::new(builder)));
         Ok(())
     })

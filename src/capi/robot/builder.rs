@@ -1,12 +1,12 @@
 //! Robot builders, which collect links and joints.
 
 use std::ffi::c_char;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use crate::body::Body;
 use crate::capi::body::body::cstk_body;
 use crate::capi::boundary::{Failure, guard};
-use crate::capi::exclusive::exclusively;
+use crate::capi::exclusive::Exclusive;
 use crate::capi::handle;
 use crate::capi::handle::Noun;
 use crate::capi::input::{OptionsStruct, Output, index_or_none, options, text, write_defaults};
@@ -25,7 +25,7 @@ pub struct cstk_robot_builder {
     _opaque: [u8; 0],
 }
 
-pub(crate) struct Builder(Mutex<State>);
+pub(crate) struct Builder(Exclusive<State>);
 
 /// The links so far, and the report on the last URDF file.
 pub(crate) struct State {
@@ -113,7 +113,7 @@ pub(crate) fn with_builder(
     // Shared ownership: another thread may release the handle during the call.
     let builder = handle::share::<Builder>(builder, "builder")?;
     // Additions are made whole or not at all, so a panic leaves the builder sound.
-    exclusively(&builder.0, "the builder", |_| {}, action)
+    builder.0.with("the builder", |_| {}, action)
 }
 
 /// Creates an empty builder for robots of dimension 2 (planar: joints turn about z or shift along x and y) or 3. Release it
@@ -130,7 +130,7 @@ pub unsafe extern "C" fn cstk_robot_builder_create(
             urdf: None,
             srdf: None,
         };
-        out.write(handle::create(Arc::new(Builder(Mutex::new(state)))));
+        out.write(handle::create(Arc::new(Builder(Exclusive::new(state)))));
         Ok(())
     })
 }

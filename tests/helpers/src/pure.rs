@@ -36,18 +36,6 @@ impl<F: Fn(&[f64]) -> Result<Class> + Send + Sync> Predicate for ClassesAlone<F>
     fn measures(&self) -> bool {
         false
     }
-
-    fn is_exact(&self) -> bool {
-        false
-    }
-
-    fn knows_depth(&self) -> bool {
-        false
-    }
-
-    fn gradient(&self, _: &[f64], _: &mut [f64]) -> Result<bool> {
-        Ok(false)
-    }
 }
 
 /// The set whose classes a function tells, which may also fail, panic, or take its time.
