@@ -45,7 +45,7 @@ impl Batch {
         let ask = |context: &mut QueryContext, item| {
             let ends = [starts.at(item), ends.at(item)];
             let found = context.motion_between_in(world, cobject, ends, options);
-            let answer = MotionAnswer::or_undecided(found, ends[0])?;
+            let answer = MotionAnswer::or_undecided(found, || ends[0].to_vec())?;
             let is_hit = answer.outcome != MotionOutcome::Free;
             Ok((answer, is_hit))
         };

@@ -72,7 +72,7 @@ struct Shared<'a, S, Ask, Refuse> {
     count: usize,
     run_length: usize,
     options: &'a BatchOptions,
-    /// The first failure ends the job.
+    /// A failure ends the job: what comes before it is still asked, so that the first is the same on any number of threads.
     stops_at_failure: bool,
     queue: Mutex<Queue<S>>,
     is_stopped: AtomicBool,
@@ -80,6 +80,8 @@ struct Shared<'a, S, Ask, Refuse> {
     done: AtomicUsize,
     /// Beyond this item nothing is asked any more.
     first_hit: AtomicUsize,
+    /// The same, for a failure that ends the job.
+    last: AtomicUsize,
     first_failure: Mutex<Option<(usize, Error)>>,
     /// How many threads work beside the caller's.
     helping: Mutex<usize>,
@@ -116,8 +118,16 @@ where
         self.is_stopped.load(Ordering::Relaxed)
     }
 
+    fn is_ended(&self) -> bool {
+        self.is_stopped() || self.last.load(Ordering::Relaxed) < self.count
+    }
+
     fn is_over(&self, item: usize) -> bool {
-        self.is_stopped() || item > self.first_hit.load(Ordering::Relaxed)
+        self.is_beyond_failure(item) || item > self.first_hit.load(Ordering::Relaxed)
+    }
+
+    fn is_beyond_failure(&self, item: usize) -> bool {
+        self.is_stopped() || item > self.last.load(Ordering::Relaxed)
     }
 
     /// Tells progress on the caller's thread, if it is time; whether work goes on.
@@ -142,9 +152,12 @@ where
                 return false;
             }
             worker.context.start_item(self.options.limit);
-            let pulse = &mut || match self.pulse(reporter.as_deref_mut()) {
-                true => Ok(()),
-                false => Err(Error::new(ErrorKind::Cancelled, "the work is ended")),
+            let pulse = &mut || {
+                self.pulse(reporter.as_deref_mut());
+                match self.is_beyond_failure(number) {
+                    true => Err(Error::new(ErrorKind::Cancelled, "the work is ended")),
+                    false => Ok(()),
+                }
             };
             let item = &mut Item {
                 number,
@@ -176,9 +189,12 @@ where
     }
 
     fn keep_failure(&self, number: usize, error: Error) {
-        // Once the job is ended, items fail because it is.
-        if self.stops_at_failure && self.is_stopped.swap(true, Ordering::Relaxed) {
-            return;
+        if self.stops_at_failure {
+            let last = self.last.fetch_min(number, Ordering::Relaxed);
+            // Once the job is ended, items fail because it is.
+            if self.is_stopped() || last < number {
+                return;
+            }
         }
         let first = self.first_failure.lock();
         let mut first = first.unwrap_or_else(PoisonError::into_inner);
@@ -322,6 +338,7 @@ impl Batch {
             is_stopped: AtomicBool::new(false),
             done: AtomicUsize::new(0),
             first_hit: AtomicUsize::new(usize::MAX),
+            last: AtomicUsize::new(usize::MAX),
             first_failure: Mutex::new(None),
             helping: Mutex::new(0),
             helped: Condvar::new(),
@@ -336,7 +353,7 @@ impl Batch {
         if reporter.report(0.0) {
             shared.work_off(&mut self.workers[..threads], reporter)?;
             // After a failure that ended the job it is not done.
-            if !shared.is_stopped() {
+            if !shared.is_ended() {
                 reporter.report(1.0);
             }
         }
@@ -385,5 +402,45 @@ impl Batch {
             answer,
             |slots, place, error| put(slots, place, Err(error)),
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The second of two failures comes first in time, and must not be told for that.
+    #[test]
+    fn the_first_failure_ends_the_work_whatever_the_threads_do() {
+        for threads in [1, 2, 4] {
+            let options = BatchOptions {
+                threads,
+                ..BatchOptions::default()
+            };
+            let job = BatchJob {
+                options: &options,
+                slots: (),
+                progress: &mut |_| Ok(()),
+            };
+            let asked = AtomicUsize::new(0);
+            let work =
+                |_: &mut QueryContext, item: usize, pulse: &mut dyn FnMut() -> Result<()>| {
+                    asked.fetch_add(1, Ordering::Relaxed);
+                    match item {
+                        3 => {
+                            for _ in 0..20 {
+                                std::thread::sleep(Duration::from_millis(1));
+                                pulse()?;
+                            }
+                            Err(Error::invalid("item 3"))
+                        }
+                        4.. => Err(Error::invalid(format!("item {item}"))),
+                        _ => Ok(()),
+                    }
+                };
+            let ended = Batch::new().work_off(job, 10_000, work);
+            assert_eq!(ended.unwrap_err().message, "item 3", "{threads} threads");
+            assert!(asked.into_inner() <= 4 + threads as usize);
+        }
     }
 }

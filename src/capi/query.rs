@@ -263,13 +263,14 @@ pub unsafe extern "C" fn cstk_query_set_contacts(
 
 /// Limits the work of each later query with this context to `node_and_primitive_pairs`: of every call that takes the
 /// context and answers, or slides, from cstk_pair_within to cstk_find_link_pairs. A query that needs more returns
-/// CSTK_ERROR_LIMIT and writes nothing; the context can be used again at once. 0, the initial setting, means no limit.
+/// CSTK_ERROR_LIMIT and writes nothing; those that have an outcome for it, as motions, boxes of C-space and slides, end with that, and
+/// write what they have proved. The context can be used again at once. 0, the initial setting, means no limit.
 ///
 /// Work is what cstk_query_statistics counts as `node_pairs` and `primitive_pairs`: a million takes from 10 milliseconds
 /// (nodes of meshes) to a second (primitives other than polygons). Penetrations of polyhedra also count each two edges that
 /// are compared. The work depends on the query and on what the context remembers of earlier ones, not on the thread or on
 /// the machine's load: contexts that run the same queries from creation on reach the limit at the same call. Fixed costs of
-/// a call do not count: kinematics, pure sets, callbacks.
+/// a call do not count: kinematics, callbacks, and pure sets but where a proof looks at one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_query_set_limit(
     query: *mut cstk_query,

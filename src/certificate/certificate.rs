@@ -11,7 +11,7 @@ pub struct Certificate {
     pub(super) orders: Vec<Vec<u32>>,
     /// The proof, parted: see [`Step`].
     pub(super) steps: Vec<Step>,
-    /// One for each [`Step::Proved`], in order.
+    /// One for each [`Step::PROVED`], in order.
     pub(super) entries: Vec<Entry>,
 }
 

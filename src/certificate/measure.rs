@@ -104,8 +104,14 @@ impl<'a> Measure<'a> {
                 normal,
                 offset,
                 is_open,
-            } => self.over_plane(points, part, (normal, *offset), *is_open),
-            What::Coordinates(pure) => self.of_coordinates(pure, part),
+            } => {
+                let counts_boundary = !*is_open || item.limit > 0.0;
+                self.over_plane(points, part, (normal, *offset), counts_boundary)
+            }
+            What::Coordinates(pure) => {
+                let counts_boundary = !pure.shape.is_open() || item.limit > 0.0;
+                self.of_coordinates(pure, part, counts_boundary)
+            }
         }
     }
 
@@ -139,13 +145,13 @@ impl<'a> Measure<'a> {
         })
     }
 
-    /// The height of points over a plane of the world.
+    /// The height of points over a plane of the world, which may count as inside or not.
     fn over_plane(
         &mut self,
         points: &Carried,
         part: &Part,
         (normal, offset): (&Vec3, f64),
-        is_open: bool,
+        counts_boundary: bool,
     ) -> Result<Measured> {
         let group = self.group(points, part.groups[0]);
         let mut gap = f64::INFINITY;
@@ -158,9 +164,9 @@ impl<'a> Measure<'a> {
         let radius = |from: &Vec3| group.radius(&points.pose, from);
         let bounds = self.course.seen_from(None, points.link, radius);
         // What rests on the boundary of an open set is outside of it, as queries compute it.
-        let rounding = match is_open && bounds.speed == 0.0 {
-            true => 0.0,
-            false => {
+        let rounding = match counts_boundary || bounds.speed != 0.0 {
+            false => 0.0,
+            true => {
                 let radii = [radius(&Vec3::zeros()), offset.abs()];
                 self.course.rounding([Some(points), None], radii)
             }
@@ -174,7 +180,12 @@ impl<'a> Measure<'a> {
 
     /// The distance from a set given in C-space. It changes no faster than the configuration moves; and where it is the least of
     /// linear functions, it is least at one of the ends.
-    fn of_coordinates(&mut self, pure: &PureSet, part: &Part) -> Result<Measured> {
+    fn of_coordinates(
+        &mut self,
+        pure: &PureSet,
+        part: &Part,
+        counts_boundary: bool,
+    ) -> Result<Measured> {
         let is_least_at_ends = self.is_least_at_ends(pure);
         let mut gap = LARGEST_COORDINATE;
         let mut rounding = 0.0f64;
@@ -196,7 +207,7 @@ impl<'a> Measure<'a> {
             let size: f64 = q.iter().map(|x| x.abs()).sum();
             rounding = rounding.max(measure.error + 16.0 * EPSILON * size * pure.scale());
         }
-        if is_least_at_ends && pure.shape.is_open() {
+        if is_least_at_ends && !counts_boundary {
             rounding = 0.0;
         }
         let speed = length(&self.course.v);

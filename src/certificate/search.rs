@@ -70,7 +70,8 @@ impl QueryContext {
             distance: None,
         };
         self.with_statement(cobject, ends, options, |context, world, statement| {
-            let answer = context.motion_between_in(world, cobject, ends, options)?;
+            let found = context.motion_between_in(world, cobject, ends, options);
+            let answer = MotionAnswer::or_undecided(found, || q0.to_vec())?;
             if answer.outcome != MotionOutcome::Free {
                 return Ok((answer, None));
             }

@@ -1,7 +1,8 @@
 //! The least distance along a whole motion. Distances at some times bound it from above; only proofs over the whole motion bound
 //! it from below.
 
-use super::motion::{MotionOptions, MotionOutcome};
+use super::motion::MotionOptions;
+use super::motion_answer::MotionOutcome;
 use super::set_tree::SetTree;
 use super::valley::{Height, Valley};
 use super::way::Way;

@@ -1,7 +1,8 @@
 //! Motions on Bezier curves and B-splines through C-space.
 
 use super::linear_motion::LinearMotion;
-use super::motion::{MotionAnswer, MotionOptions, MotionOutcome};
+use super::motion::MotionOptions;
+use super::motion_answer::{MotionAnswer, MotionOutcome};
 use super::way::{Way, WayKind};
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result};
@@ -110,7 +111,7 @@ impl QueryContext {
             end: None,
             kind: WayKind::Curve { controls: points },
         };
-        MotionAnswer::or_undecided(self.motion_on(way, options), q)
+        MotionAnswer::or_undecided(self.motion_on(way, options), || q.to_vec())
     }
 }
 

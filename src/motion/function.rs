@@ -1,7 +1,8 @@
 //! Motions that a function gives.
 
 use super::linear_motion::LinearMotion;
-use super::motion::{MotionAnswer, MotionOptions};
+use super::motion::MotionOptions;
+use super::motion_answer::MotionAnswer;
 use super::stated_motion::{MotionBounds, MotionFunction, StatedMotion};
 use super::way::{Way, WayKind};
 use crate::cobject::CObject;
@@ -32,6 +33,6 @@ impl QueryContext {
             end: None,
             kind: WayKind::Stated(motion),
         };
-        MotionAnswer::or_undecided(self.motion_on(way, options), &motion.start)
+        MotionAnswer::or_undecided(self.motion_on(way, options), || motion.start.clone())
     }
 }

@@ -6,6 +6,7 @@ use super::gathering::{Gathering, Keeps};
 use super::interval_proof::{Confirm, Proof, ProofLimits, prove};
 use super::kinematics::Kinematics;
 use super::linear_motion::LinearMotion;
+use super::motion_answer::{Moments, MotionAnswer, MotionOutcome};
 use super::moving_pair::MovingPair;
 use super::moving_set::MovingSet;
 use super::proof_memory::ProofMemory;
@@ -13,7 +14,7 @@ use super::set_tree::SetTree;
 use super::start_contacts::StartContacts;
 use super::way::Way;
 use crate::cobject::{CObject, Class};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::query::{Configuration, Distance, QueryContext, World, check_threshold};
 use crate::reused::emptied;
 
@@ -44,55 +45,6 @@ impl Default for MotionOptions {
     }
 }
 
-/// How a motion ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MotionOutcome {
-    /// Proved free for every time from 0 to 1.
-    Free,
-    /// There is contact at the second of the times; unless any contact was asked for, all before the first is proved free, and the
-    /// two are no farther apart than the tolerance.
-    Hit,
-    /// All before the times is free; between them, no farther apart than the tolerance, it comes so near the threshold that neither
-    /// a proof nor a contact was found.
-    Near,
-    /// The work of a call was limited (see [`QueryContext::set_limit`]); all before the first time is free.
-    Undecided,
-}
-
-/// What was found of a motion.
-#[derive(Clone, Debug)]
-pub struct MotionAnswer {
-    /// How it ends.
-    pub outcome: MotionOutcome,
-    /// See [`MotionOutcome`]; 1 and 1 for a motion that is free.
-    pub times: [f64; 2],
-    /// The configuration at the second time.
-    pub configuration: Vec<f64>,
-    /// The distance there, with its witness: of hits and of what is near, unless any contact was asked for, or lengths and units of
-    /// C-space mix in the set.
-    pub distance: Option<Distance>,
-}
-
-impl MotionAnswer {
-    /// Where the work ended before the proof began.
-    pub(super) fn undecided_at(q: &[f64]) -> Self {
-        Self {
-            outcome: MotionOutcome::Undecided,
-            times: [0.0; 2],
-            configuration: q.to_vec(),
-            distance: None,
-        }
-    }
-
-    /// The answer of a motion from q, also where the limit of work ended it before anything was proved.
-    pub(crate) fn or_undecided(found: Result<Self>, q: &[f64]) -> Result<Self> {
-        match found {
-            Err(error) if error.kind == ErrorKind::Limit => Ok(Self::undecided_at(q)),
-            found => found,
-        }
-    }
-}
-
 impl MotionOptions {
     /// Checks them, and that the C-object can be asked about this threshold.
     pub(crate) fn check_for(&self, cobject: &CObject) -> Result<()> {
@@ -118,27 +70,32 @@ impl MotionOptions {
     }
 }
 
-impl MotionOutcome {
-    /// How a proof ended, and the two times of the answer. `meets` says whether there is contact at a time.
-    pub(super) fn of_proof(
-        proof: Proof,
-        tolerance: f64,
-        mut meets: impl FnMut(f64) -> Result<bool>,
-    ) -> Result<(Self, [f64; 2])> {
-        Ok(match proof {
-            Proof::Free => (Self::Free, [1.0, 1.0]),
-            Proof::Contact(times) => (Self::Hit, times),
-            Proof::Exceeded(time) => (Self::Undecided, [time, time]),
-            Proof::Undecided([start, end]) => {
-                // Where rounding hides the moment of contact, it may be certain as soon as the tolerance allows.
-                for later in [end, (start + tolerance).min(1.0)] {
-                    if meets(later)? {
-                        return Ok((Self::Hit, [start, later]));
-                    }
-                }
-                (Self::Near, [start, end])
-            }
-        })
+/// A motion that a robot makes, as it is asked.
+struct AskedWay<'a> {
+    context: &'a mut QueryContext,
+    way: &'a Way<'a>,
+    options: &'a MotionOptions,
+}
+
+impl Moments for AskedWay<'_> {
+    type Configuration = Vec<f64>;
+
+    fn at(&self, t: f64) -> Result<Vec<f64>> {
+        self.way.at(t)
+    }
+
+    fn meet(&mut self, t: f64) -> Result<bool> {
+        self.context.has_contact(self.way, t, self.options)
+    }
+
+    fn distance(&mut self, at: &Vec<f64>) -> Result<Option<Distance>> {
+        let LinearMotion { world, cobject, .. } = self.way.line;
+        if self.options.any_contact || cobject.require_one_metric().is_err() {
+            return Ok(None);
+        }
+        let at = Configuration::Coordinates(at);
+        let found = self.context.distance_in(world, cobject, at, f64::INFINITY);
+        found.map(Some)
     }
 }
 
@@ -154,7 +111,7 @@ impl QueryContext {
     ) -> Result<MotionAnswer> {
         let world = &self.begin_motion(cobject, options)?;
         let found = self.motion_between_in(world, cobject, [q0, q1], options);
-        MotionAnswer::or_undecided(found, q0)
+        MotionAnswer::or_undecided(found, || q0.to_vec())
     }
 
     /// The same in a given world, with checked options.
@@ -186,7 +143,7 @@ impl QueryContext {
             q,
             v,
         });
-        self.sampled_or_proved(way, options)
+        MotionAnswer::or_undecided(self.sampled_or_proved(way, options), || q.to_vec())
     }
 
     /// The answer of a whole straight motion: by a sample where any contact will do and one has it, else by the proof.
@@ -195,17 +152,32 @@ impl QueryContext {
         way: &Way,
         options: &MotionOptions,
     ) -> Result<MotionAnswer> {
-        let uses_known = options.threshold == 0.0 && way.line.cobject.has_known();
-        let is_sampled = options.any_contact
-            && !(uses_known && way.is_free_by_word(&SetTree::new(way.line.cobject, true))?);
-        if is_sampled {
+        if options.any_contact {
+            let uses_known = options.threshold == 0.0 && way.line.cobject.has_known();
+            if uses_known && way.is_free_by_word(&SetTree::new(way.line.cobject, true))? {
+                return MotionAnswer::of_proof(Proof::Free, 0.0, &mut self.asked(way, options));
+            }
             for time in times_sampled_first(way) {
-                if self.has_contact(way, time, options)? {
-                    return self.answer(way, MotionOutcome::Hit, [0.0, time], options);
+                if let Some(hit) = self.contact_at(way, time, options)? {
+                    return Ok(hit);
                 }
             }
         }
         self.motion_on(way, options)
+    }
+
+    /// The answer where there is contact at a time, and any will do.
+    pub(super) fn contact_at(
+        &mut self,
+        way: &Way,
+        time: f64,
+        options: &MotionOptions,
+    ) -> Result<Option<MotionAnswer>> {
+        if !self.has_contact(way, time, options)? {
+            return Ok(None);
+        }
+        let asked = &mut self.asked(way, options);
+        MotionAnswer::new(MotionOutcome::Hit, [0.0, time], asked).map(Some)
     }
 
     /// Checks what all motions need; takes the world.
@@ -227,9 +199,16 @@ impl QueryContext {
             intervals: usize::MAX,
         };
         let proof = self.prove_way(way, options.threshold, limits, None, confirm)?;
-        let meets = |t: f64| self.has_contact(way, t, options);
-        let (outcome, times) = MotionOutcome::of_proof(proof, options.tolerance, meets)?;
-        self.answer(way, outcome, times, options)
+        let asked = &mut self.asked(way, options);
+        MotionAnswer::of_proof(proof, options.tolerance, asked)
+    }
+
+    fn asked<'a>(&'a mut self, way: &'a Way, options: &'a MotionOptions) -> AskedWay<'a> {
+        AskedWay {
+            context: self,
+            way,
+            options,
+        }
     }
 
     /// The proof of a motion. `start` is given for motions that are known not to begin inside.
@@ -307,39 +286,6 @@ impl QueryContext {
         let at = Configuration::Coordinates(&q);
         self.with_scene(cobject, world, at, |context, scene| {
             context.set_within(cobject, scene, options.threshold)
-        })
-    }
-
-    pub(super) fn answer(
-        &mut self,
-        way: &Way,
-        outcome: MotionOutcome,
-        times: [f64; 2],
-        options: &MotionOptions,
-    ) -> Result<MotionAnswer> {
-        let configuration = way.at(times[1])?;
-        let distance = match outcome {
-            MotionOutcome::Hit | MotionOutcome::Near
-                if !options.any_contact && way.line.cobject.require_one_metric().is_ok() =>
-            {
-                let at = Configuration::Coordinates(&configuration);
-                match self.distance_in(way.line.world, way.line.cobject, at, f64::INFINITY) {
-                    Err(error) if error.kind == ErrorKind::Limit => {
-                        return Ok(MotionAnswer {
-                            times: [times[0]; 2],
-                            ..MotionAnswer::undecided_at(&way.at(times[0])?)
-                        });
-                    }
-                    distance => Some(distance?),
-                }
-            }
-            _ => None,
-        };
-        Ok(MotionAnswer {
-            outcome,
-            times,
-            configuration,
-            distance,
         })
     }
 }

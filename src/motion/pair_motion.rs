@@ -3,7 +3,8 @@
 use super::carried::Carried;
 use super::interval_proof::{Proof, ProofLimits, prove};
 use super::kinematics::Kinematics;
-use super::motion::{MotionOptions, MotionOutcome};
+use super::motion::MotionOptions;
+use super::motion_answer::{Moments, MotionAnswer};
 use super::moving_pair::MovingPair;
 use super::moving_set::{MovingLeaf, MovingSet};
 use super::pair_rates::PairRates;
@@ -26,22 +27,10 @@ pub struct PairMotion<'a> {
     pub poses: [&'a Pose; 2],
 }
 
-/// What was found of two bodies on a motion.
-#[derive(Clone, Debug)]
-pub struct PairMotionAnswer {
-    /// How it ends.
-    pub outcome: MotionOutcome,
-    /// See [`MotionOutcome`]; 1 and 1 for a motion that is free.
-    pub times: [f64; 2],
-    /// The poses of both bodies at the second time.
-    pub poses: [Pose; 2],
-    /// The distance there, with its witness: of hits and of what is near, unless any contact was asked for.
-    pub distance: Option<Distance>,
-}
-
 /// Both bodies on their screws, as the two carriers of a proof.
 struct OnScrews<'a> {
     bodies: [&'a Body; 2],
+    ends: [&'a Pose; 2],
     motions: LinkMotions,
     threshold: f64,
 }
@@ -56,12 +45,16 @@ impl<'a> OnScrews<'a> {
         }
         Self {
             bodies: pair.map(|moving| moving.body),
+            ends: pair.map(|moving| moving.poses[1]),
             motions,
             threshold,
         }
     }
 
     fn poses_at(&self, t: f64) -> [Pose; 2] {
+        if t == 1.0 {
+            return self.ends.map(|end| *end);
+        }
         let mut states = LinkStates::default();
         states.start(&self.motions, t);
         [0, 1].map(|body| states.of(&self.motions, body).pose)
@@ -133,33 +126,49 @@ impl QueryContext {
         a: &PairMotion,
         b: &PairMotion,
         options: &MotionOptions,
-    ) -> Result<PairMotionAnswer> {
+    ) -> Result<MotionAnswer<[Pose; 2]>> {
         options.check()?;
         for end in 0..2 {
             check_dimensions((a.body, a.poses[end]), (b.body, b.poses[end]))?;
         }
         self.scratch.meter_mut().start_call();
-        let screws = OnScrews::new([a, b], options.threshold);
-        let proof = screws.prove(options, self)?;
-        let meets = |t: f64| screws.meet_at(t, self);
-        let (outcome, times) = MotionOutcome::of_proof(proof, options.tolerance, meets)?;
-        let poses = if times[1] == 1.0 {
-            [*a.poses[1], *b.poses[1]]
-        } else {
-            screws.poses_at(times[1])
-        };
-        let distance = match outcome {
-            MotionOutcome::Hit | MotionOutcome::Near if !options.any_contact => {
-                let [at_a, at_b] = [(a.body, &poses[0]), (b.body, &poses[1])];
-                Some(self.bodies_distance(at_a, at_b, f64::INFINITY)?)
-            }
-            _ => None,
-        };
-        Ok(PairMotionAnswer {
-            outcome,
-            times,
-            poses,
-            distance,
-        })
+        let screws = &OnScrews::new([a, b], options.threshold);
+        let found = screws.prove(options, self).and_then(|proof| {
+            let mut asked = AskedScrews {
+                context: self,
+                screws,
+                options,
+            };
+            MotionAnswer::of_proof(proof, options.tolerance, &mut asked)
+        });
+        MotionAnswer::or_undecided(found, || screws.poses_at(0.0))
+    }
+}
+
+/// A motion that two bodies make, as it is asked.
+struct AskedScrews<'a> {
+    context: &'a mut QueryContext,
+    screws: &'a OnScrews<'a>,
+    options: &'a MotionOptions,
+}
+
+impl Moments for AskedScrews<'_> {
+    type Configuration = [Pose; 2];
+
+    fn at(&self, t: f64) -> Result<[Pose; 2]> {
+        Ok(self.screws.poses_at(t))
+    }
+
+    fn meet(&mut self, t: f64) -> Result<bool> {
+        self.screws.meet_at(t, self.context)
+    }
+
+    fn distance(&mut self, [at_a, at_b]: &[Pose; 2]) -> Result<Option<Distance>> {
+        if self.options.any_contact {
+            return Ok(None);
+        }
+        let [a, b] = self.screws.bodies;
+        let found = (self.context).bodies_distance((a, at_a), (b, at_b), f64::INFINITY);
+        found.map(Some)
     }
 }

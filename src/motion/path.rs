@@ -1,6 +1,7 @@
 //! Paths: polylines through configurations, each segment a motion, all in one state of the world.
 
-use super::motion::{MotionAnswer, MotionOptions, MotionOutcome};
+use super::motion::MotionOptions;
+use super::motion_answer::{MotionAnswer, MotionOutcome};
 use super::way::Way;
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result};
@@ -138,24 +139,14 @@ impl QueryContext {
             step()?;
             let segment = (sample / 2).min(path.segment_count() - 1);
             let t = 0.5 * (sample - 2 * segment) as f64;
-            let found = path.ask(segment, |way| {
-                if !self.has_contact(way, t, options)? {
-                    return Ok(None);
-                }
-                Ok(Some(self.answer(
-                    way,
-                    MotionOutcome::Hit,
-                    [0.0, t],
-                    options,
-                )?))
-            });
+            let found = path.ask(segment, |way| self.contact_at(way, t, options));
             match found {
                 Ok(None) => {}
                 Ok(Some(motion)) => return Ok(Some(PathAnswer { segment, motion })),
                 Err(error) if error.kind == ErrorKind::Limit => {
                     return Ok(Some(PathAnswer {
                         segment: 0,
-                        motion: MotionAnswer::undecided_at(path.point(0)),
+                        motion: MotionAnswer::undecided(0.0, path.point(0).to_vec()),
                     }));
                 }
                 Err(error) => return Err(error),
@@ -175,7 +166,7 @@ impl QueryContext {
         loop {
             step()?;
             let found = path.ask(segment, |way| self.motion_on(way, options));
-            let motion = MotionAnswer::or_undecided(found, path.point(segment))?;
+            let motion = MotionAnswer::or_undecided(found, || path.point(segment).to_vec())?;
             if motion.outcome != MotionOutcome::Free || segment + 1 == path.segment_count() {
                 return Ok(PathAnswer { segment, motion });
             }

@@ -1,7 +1,8 @@
 //! Paths made shorter by proofs (Geraerts and Overmars 2007 compare such methods): a straight motion that is proved free replaces the part
 //! of a path between two places on it.
 
-use super::motion::{MotionOptions, MotionOutcome};
+use super::motion::MotionOptions;
+use super::motion_answer::MotionOutcome;
 use super::path::{Path, PathAnswer, checked_count};
 use crate::cobject::CObject;
 use crate::error::{ErrorKind, Result};

@@ -1,7 +1,8 @@
 //! Slides that go on until they arrive or are blocked: what a local planner does between two subgoals.
 
 use super::goal_box::GoalBox;
-use super::motion::{MotionOptions, MotionOutcome};
+use super::motion::MotionOptions;
+use super::motion_answer::MotionOutcome;
 use super::slide::{Slid, SlideOutcome};
 use super::slide_options::SlideOptions;
 use crate::cobject::CObject;
@@ -282,12 +283,11 @@ impl QueryContext {
             return Ok(());
         }
         walk.motions += 1;
-        let times = self.straight(walk, &target)?;
-        if times.is_none() {
+        let Some(times) = self.straight(walk, &target)? else {
             walk.go(target);
             return Ok(());
-        }
-        let part = times.map_or(0.0, |times| times[0] - walk.options.step / way);
+        };
+        let part = times[0] - walk.options.step / way;
         if part <= 0.0 {
             return Ok(());
         }

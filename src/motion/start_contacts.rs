@@ -79,7 +79,7 @@ trait Obstacle {
         context: &mut QueryContext,
         motion: &LinearMotion,
         start: &Scene,
-    ) -> Option<Separation>;
+    ) -> Result<Option<Separation>>;
 
     /// Up to which distance the two touch.
     fn touching(&self) -> f64;
@@ -231,7 +231,7 @@ impl Near<'_> {
         if lower >= allowance.distance {
             return Ok(Some(0.0));
         }
-        let plane = obstacle.separation(context, motion, start);
+        let plane = obstacle.separation(context, motion, start)?;
         let touching = obstacle.touching();
         if plane.as_ref().is_some_and(|plane| plane.lasts(touching)) {
             let stays = lower <= 0.0 || self.is_apart_at(context, obstacle, 1.0)?;
@@ -324,25 +324,30 @@ impl Obstacle for PairAtStart<'_> {
         context: &mut QueryContext,
         motion: &LinearMotion,
         start: &Scene,
-    ) -> Option<Separation> {
+    ) -> Result<Option<Separation>> {
         let target = self.target;
         let (link, None) = target.links() else {
-            return None;
+            return Ok(None);
         };
-        let targets = &[target];
-        let (hit, _) = context.nearest(targets, f64::INFINITY).ok()?.hit?;
+        let Some((hit, _)) = context.nearest(&[target], f64::INFINITY)?.hit else {
+            return Ok(None);
+        };
         if hit.contained.is_some() {
-            return None;
+            return Ok(None);
         }
         let pairing = target.pairing();
         let scratch = &mut PrimitiveScratch::default();
         let closest = pairing.closest(&hit, scratch);
         let contacts = pairing.world_contacts(hit.key.primitives, &closest, scratch);
-        let normal = contacts.first()?.normal;
-        Some(Separation {
+        let along = contacts.first().and_then(|contact| {
+            let normal = contact.normal;
+            let rate = motion.directed_rate(start, link, target.sides[0], &normal)?;
+            Some((normal, rate))
+        });
+        Ok(along.map(|(normal, rate)| Separation {
             gap: pairing.gap_along(&normal) - target.margin(),
-            rate: motion.directed_rate(start, link, target.sides[0], &normal)?,
-        })
+            rate,
+        }))
     }
 
     fn touching(&self) -> f64 {
@@ -377,18 +382,22 @@ impl Obstacle for PureSet {
         _: &mut QueryContext,
         motion: &LinearMotion,
         start: &Scene,
-    ) -> Option<Separation> {
+    ) -> Result<Option<Separation>> {
         let PureShape::Floor { links, normal, .. } = &self.shape else {
-            return None;
+            return Ok(None);
         };
         let &[link] = &links[..] else {
-            return None;
+            return Ok(None);
         };
-        let measure = self.measure(&start.space_state()).ok()??;
-        Some(Separation {
+        let Some(measure) = self.measure(&start.space_state())? else {
+            return Ok(None);
+        };
+        let carried = start.link(link);
+        let rate = carried.and_then(|body| motion.directed_rate(start, link, body, normal));
+        Ok(rate.map(|rate| Separation {
             gap: measure.signed - measure.error,
-            rate: motion.directed_rate(start, link, start.link(link)?, normal)?,
-        })
+            rate,
+        }))
     }
 
     /// Its lower bound has the rounding.

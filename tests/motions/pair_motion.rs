@@ -80,7 +80,7 @@ fn free_screws_are_free_at_every_sample_and_hits_are_hits() {
             }
         }
         if answer.outcome == MotionOutcome::Hit {
-            let [p, q] = &answer.poses;
+            let [p, q] = &answer.configuration;
             assert!(
                 context
                     .pair_within((&bodies[0], p), (&bodies[1], q), 0.0)
@@ -112,6 +112,43 @@ fn at(moving: &PairMotion, t: f64) -> Pose {
         rotation: from.rotation * turned,
         translation: from.translation + from.rotation * place,
     }
+}
+
+#[test]
+fn a_limit_of_work_leaves_it_undecided() {
+    let [small, room] = [solid_one(&cube(0.4)), solid_one(&cube(5.0))];
+    let [from, to, at_rest] = [
+        shift(20.0, 0.0, 0.0),
+        shift(0.0, 1.0, 0.0),
+        Pose::identity(),
+    ];
+    let ask = |context: &mut QueryContext| {
+        let moves = PairMotion {
+            body: &small,
+            poses: [&from, &to],
+        };
+        let rests = PairMotion {
+            body: &room,
+            poses: [&at_rest, &at_rest],
+        };
+        let options = MotionOptions::default();
+        context.pair_motion(&moves, &rests, &options).unwrap()
+    };
+    let whole = ask(&mut QueryContext::new());
+    assert_eq!(whole.outcome, MotionOutcome::Hit);
+    let mut undecided = 0;
+    for limit in 0..100_000 {
+        let context = &mut QueryContext::new();
+        context.set_limit(Some(limit));
+        let found = ask(context);
+        if found.outcome != MotionOutcome::Undecided {
+            assert_eq!((found.outcome, found.times), (whole.outcome, whole.times));
+            break;
+        }
+        undecided += 1;
+        assert!(found.times[0] <= whole.times[0] && found.distance.is_none());
+    }
+    assert!((3..100_000).contains(&undecided), "{undecided}");
 }
 
 #[test]

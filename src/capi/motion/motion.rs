@@ -156,8 +156,8 @@ impl From<cstk_motion_options> for MotionOptions {
     }
 }
 
-impl From<&MotionAnswer> for cstk_motion_result {
-    fn from(answer: &MotionAnswer) -> Self {
+impl<C> From<&MotionAnswer<C>> for cstk_motion_result {
+    fn from(answer: &MotionAnswer<C>) -> Self {
         let nothing = Distance::unknown();
         Self {
             outcome: match answer.outcome {

@@ -8,7 +8,7 @@ use crate::capi::handle;
 use crate::capi::input::{Output, OutputSlice, options_or_default, pose};
 use crate::capi::query::{cstk_query, with_query};
 use crate::capi::status::status::cstk_status;
-use crate::motion::{MotionAnswer, PairMotion};
+use crate::motion::PairMotion;
 
 /// Proves that two bodies that move keep farther apart than the threshold, or finds their first contact. From time 0 to 1 each body
 /// goes from its start to its end on a screw: with constant velocity in its own frame, by the shortest rotation. A translation is a
@@ -53,19 +53,11 @@ pub unsafe extern "C" fn cstk_pair_motion(
                 });
             let context = &mut state.context;
             let answer = context.pair_motion(&moving_a, &moving_b, &options.into())?;
-            let rows = answer.poses.map(|pose| pose.to_row_major());
+            let rows = answer.configuration.map(|pose| pose.to_row_major());
             if let Some(reached) = reached {
                 reached.write(&rows.concat());
             }
-            out.write(
-                (&MotionAnswer {
-                    outcome: answer.outcome,
-                    times: answer.times,
-                    configuration: Vec::new(),
-                    distance: answer.distance,
-                })
-                    .into(),
-            );
+            out.write((&answer).into());
             Ok(())
         })
     })
