@@ -5191,7 +5191,8 @@ typedef struct cstk_shortcut_result {
    */
   uint64_t cuts;
   /**
-   * What cstk_motion_path says of the given path, with any_contact set.
+   * As cstk_motion_path tells it: the first segment of the given path that is not proved free, with some contact of it, or the last.
+   * Unlike there, no points are looked at before.
    */
   cstk_path_result given;
   uint64_t reserved[8];

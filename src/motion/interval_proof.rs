@@ -20,6 +20,10 @@ use crate::query::QueryContext;
 /// told over no longer time than was asked for.
 const SHORTEST_INTERVAL: f64 = 1.0 / (1u64 << 40) as f64;
 
+/// The same where rounding hides whether primitives are apart, of sets in which something else may still keep clear; of unions that is the
+/// tolerance. Distances that jitter by their rounding would else let a proof creep on by the shortest intervals.
+const SHORTEST_GRAZED: f64 = 64.0 * SHORTEST_INTERVAL;
+
 /// The start is asked for by itself where an interval from it on, no longer than this, is undecided: most motions that planners ask for
 /// begin where they have been, and are proved free there at once.
 const START_ASKED_BELOW: f64 = 0.125;
@@ -85,6 +89,8 @@ struct Outcome {
     left: FrontPart,
     /// Primitives that meet where it was looked at.
     met: Option<MeetingLeaves>,
+    /// Primitives are so near where it was looked at that rounding hides whether they are apart.
+    is_grazed: bool,
 }
 
 /// Memory of a proof, used again by the next.
@@ -172,8 +178,12 @@ impl<'a> Prover<'a, '_, '_, '_> {
             if self.context.scratch.meter().is_exceeded() {
                 return Ok(Proof::Exceeded(start));
             }
-            let Outcome { whole, left, met } =
-                self.look_and_count(lanes, &interval, is_plain, lists)?;
+            let Outcome {
+                whole,
+                left,
+                met,
+                is_grazed,
+            } = self.look_and_count(lanes, &interval, is_plain, lists)?;
             if self.context.scratch.meter().is_exceeded() {
                 return Ok(Proof::Exceeded(start));
             }
@@ -188,7 +198,12 @@ impl<'a> Prover<'a, '_, '_, '_> {
                 whole == SetVerdict::Meets && (is_plain || (self.confirm)(self.context, time)?);
             if !meets {
                 // The first such interval ends the proof, so that a graze costs one descent.
-                if end - start <= SHORTEST_INTERVAL {
+                let shortest = match is_grazed {
+                    true if is_plain => self.limits.tolerance,
+                    true => self.limits.tolerance.min(SHORTEST_GRAZED),
+                    false => SHORTEST_INTERVAL,
+                };
+                if end - start <= shortest {
                     return Ok(Proof::Undecided([start, end]));
                 }
                 interval.halve(left, todo);
@@ -299,11 +314,17 @@ impl<'a> Prover<'a, '_, '_, '_> {
             leaf: LeafLook::default(),
             pair: PairLook::new(interval.max_work()),
             met: None,
+            is_grazed: false,
         };
         let whole = set.look_at_all(lanes, &mut look, part, at, lists.nodes)?;
         let left = look.left(part);
         // Of other sets the contact of one leaf says little.
         let met = look.met.filter(|_| is_plain);
-        Ok(Outcome { whole, left, met })
+        Ok(Outcome {
+            whole,
+            left,
+            met,
+            is_grazed: look.is_grazed,
+        })
     }
 }

@@ -35,6 +35,8 @@ pub(super) struct Look<'l, 'p, P: Piece> {
     pub pair: PairLook,
     /// Primitives that meet where it is looked at.
     pub met: Option<MeetingLeaves>,
+    /// Rounding hides whether primitives are apart where it is looked at.
+    pub is_grazed: bool,
 }
 
 /// A leaf that is looked at.
@@ -252,7 +254,8 @@ impl<P: Piece> Look<'_, '_, P> {
         }
         match found {
             SweptLeaves::Free => return,
-            SweptLeaves::Undecided(direction) => {
+            SweptLeaves::Undecided(direction) | SweptLeaves::Grazed(direction) => {
+                self.is_grazed |= !self.leaf.complement && matches!(found, SweptLeaves::Grazed(_));
                 pair.direction = direction;
                 self.pair.leave(number as u32);
             }

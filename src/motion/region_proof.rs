@@ -311,6 +311,7 @@ impl<'a> Prover<'a, '_, '_> {
             leaf: Default::default(),
             pair: PairLook::new((WORK_PER_VOLUME / rest.volume) as u32),
             met: None,
+            is_grazed: false,
         };
         let at = Middle {
             way: Some(way),

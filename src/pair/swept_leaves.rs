@@ -29,6 +29,8 @@ pub enum SweptLeaves {
     Meet,
     /// They are apart at its middle, and more is not known. The direction in B's frame, from B to A, parts them there.
     Undecided([f32; 3]),
+    /// The same, and so near the threshold at its middle that rounding hides whether they are apart there: halves show no more.
+    Grazed([f32; 3]),
 }
 
 /// Closest points have errors of some EPSILON of the pair's size L, and the direction between them one of that over their distance d. What
@@ -153,7 +155,11 @@ impl Pairing<'_> {
             return SweptLeaves::Free;
         }
         let in_b = turned_back(&self.relative.rotation, &direction);
-        SweptLeaves::Undecided([in_b.x as f32, in_b.y as f32, in_b.z as f32])
+        let in_b = [in_b.x as f32, in_b.y as f32, in_b.z as f32];
+        match apart.distance - self.precision.error <= needed {
+            true => SweptLeaves::Grazed(in_b),
+            false => SweptLeaves::Undecided(in_b),
+        }
     }
 
     /// Whether one direction parts two primitives, whose cores are no smooth sets, through the interval. `direction`, from B to A in

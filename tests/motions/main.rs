@@ -14,6 +14,7 @@ mod discs;
 mod ends_at_limits;
 mod forged;
 mod free_limits;
+mod grazes;
 mod known_classes;
 mod long_bodies;
 mod map_boundaries;

@@ -68,7 +68,8 @@ pub struct cstk_shortcut_result {
     pub length_after: f64,
     /// How many times the path was cut.
     pub cuts: u64,
-    /// What cstk_motion_path says of the given path, with any_contact set.
+    /// As cstk_motion_path tells it: the first segment of the given path that is not proved free, with some contact of it, or the last.
+    /// Unlike there, no points are looked at before.
     pub given: cstk_path_result,
     pub reserved: [u64; 8],
 }
