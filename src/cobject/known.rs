@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::{CObject, Class, PureSet, PureShape, Set};
 use crate::error::{Error, ErrorKind, Result};
+use crate::nonzero::length;
 use crate::robot::BlockKind;
 use crate::space::Space;
 use crate::tolerance::EPSILON;
@@ -148,7 +149,7 @@ fn signed_range(set: &PureSet, space: &Space, around: &Around) -> [f64; 2] {
         }
         PureShape::Ball { center, radius } => {
             let (signed, error) = set.by_coordinate(space, around.q);
-            let reach = norm(around.half.iter().copied());
+            let reach = length(around.half);
             let error = error + slack;
             let offset = space.offset(center, around.q);
             let highest = match around.half {
@@ -168,18 +169,14 @@ fn coordinate_reach(space: &Space, around: &Around, c: usize) -> f64 {
         return 0.0;
     }
     let holds = |block: &&crate::robot::Block| {
-        let count = match block.kind {
-            BlockKind::Line => 1,
-            BlockKind::Rotation => 4,
-            BlockKind::Placement => 7,
-        };
-        (block.coordinate..block.coordinate + count).contains(&c)
+        let end = block.coordinate + block.kind.nq();
+        (block.coordinate..end).contains(&c)
     };
     match space.blocks().iter().find(holds) {
         Some(block) if block.kind == BlockKind::Line => around.half[block.velocity].abs(),
         Some(block) if block.kind == BlockKind::Placement => {
             let shift = &around.half[block.velocity..block.velocity + 3];
-            norm(shift.iter().copied())
+            length(shift)
         }
         _ => f64::INFINITY,
     }
@@ -198,39 +195,28 @@ fn plane_reach(space: &Space, around: &Around, normal: &[f64]) -> f64 {
             BlockKind::Line => along += (normal[c] * around.half[k]).abs(),
             BlockKind::Rotation => {}
             BlockKind::Placement => {
-                let shift = norm(around.half[k..k + 3].iter().copied());
-                rest += norm(normal[c..c + 3].iter().copied()) * shift;
+                let shift = length(&around.half[k..k + 3]);
+                rest += length(&normal[c..c + 3]) * shift;
             }
         }
     }
-    (along.abs() + rest) / norm(normal.iter().copied())
+    (along.abs() + rest) / length(normal)
 }
 
 /// Whether rotations and free joints rest.
 fn moves_lines_only(space: &Space, around: &Around) -> bool {
-    let rests = |k: usize, count: usize| around.half[k..k + count].iter().all(|x| *x == 0.0);
-    space.blocks().iter().all(|block| match block.kind {
-        BlockKind::Line => true,
-        BlockKind::Rotation => rests(block.velocity, 3),
-        BlockKind::Placement => rests(block.velocity, 6),
+    space.blocks().iter().all(|block| {
+        let own = block.velocity..block.velocity + block.kind.nv();
+        block.kind == BlockKind::Line || around.half[own].iter().all(|x| *x == 0.0)
     })
 }
 
 /// The largest length of an offset that changes by `half` to both sides, or in each entry by itself.
 fn farthest(offset: &[f64], half: &[f64], is_line: bool) -> f64 {
-    let pairs = || offset.iter().zip(half);
-    if is_line {
-        let at = |sign: f64| norm(pairs().map(|(x, h)| x + sign * h));
-        at(1.0).max(at(-1.0))
-    } else {
-        norm(pairs().map(|(x, h)| x.abs() + h.abs()))
+    let sums =
+        |of: fn((&f64, &f64)) -> f64| -> Vec<f64> { offset.iter().zip(half).map(of).collect() };
+    match is_line {
+        true => length(&sums(|(x, h)| x + h)).max(length(&sums(|(x, h)| x - h))),
+        false => length(&sums(|(x, h)| x.abs() + h.abs())),
     }
-}
-
-fn norm(entries: impl Iterator<Item = f64> + Clone) -> f64 {
-    let largest = entries.clone().fold(0.0f64, |most, x| most.max(x.abs()));
-    if largest == 0.0 {
-        return 0.0;
-    }
-    largest * entries.map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
 }

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 
 use super::carried::Carried;
 use super::moving_pair::{MAX_TURN, MovingPair};
-use super::over_piece::{Displacement, ManyTwists, Moved, PairOver};
+use super::over_piece::{Displacement, ManyTwists, Moved, OverPiece, PairOver};
 use super::pair_rates::PairRates;
 use super::way::Way;
 use crate::body::Body;
@@ -192,7 +192,7 @@ impl PairInBox {
 
 impl BoxPiece<'_> {
     /// A pair through the box.
-    pub fn pair_over<'p>(&mut self, pair: &MovingPair<'p>) -> PairOver<'p, ManyTwists> {
+    pub fn pair_over<'p>(&mut self, pair: &MovingPair<'p>) -> PairOver<OverPiece<'p, ManyTwists>> {
         let found = self.in_box(pair);
         let center_moves = |apart: &Vec3, distance: f64| found.center_moves(apart, distance);
         let [a, b] = pair.bodies();

@@ -120,6 +120,16 @@ impl<'a> Kinematics<'a> {
     /// How A moves as B sees it, where the motion of both is known.
     pub fn relative(&mut self, a: &Carried<usize>, b: &Carried<Option<usize>>) -> Relative {
         let center = self.center(a, b);
+        self.relative_with(a, b, center)
+    }
+
+    /// The same, where the centre's motion was asked for at this time.
+    pub fn relative_with(
+        &self,
+        a: &Carried<usize>,
+        b: &Carried<Option<usize>>,
+        center: CenterMotion,
+    ) -> Relative {
         let of_a = &self.bodies[a.number].1;
         match b.link {
             None => of_a.seen_at_rest(b.pose_in_carrier(), center),

@@ -189,9 +189,13 @@ impl<'a> MovingPair<'a> {
     /// farther than rho = R + threshold + h |centre's velocity| from A's centre meanwhile, and by the product rule accelerate by
     /// at most T_2 rho + 2 T_1 P_1 + P_2, or |a - 2 w x v| + (|alpha| + |w|^2) rho + h J' / 3 with
     /// J' <= T_3 rho + 3 T_2 P_1 + 3 T_1 P_2 + P_3.
-    pub fn over_interval(&self, kinematics: &mut Kinematics, span: Span) -> PairOver<'a, OneTwist> {
+    pub fn over_interval(
+        &self,
+        kinematics: &mut Kinematics,
+        span: Span,
+    ) -> PairOver<OverPiece<'a, OneTwist>> {
         let reach = span.reach();
-        match self.bounds {
+        let (relative, rates, error) = match self.bounds {
             // Most pairs are done with here: of them no more is computed than how the centres move.
             RelativeRates::Derivatives(rates) => {
                 let center = kinematics.center(&self.a, &self.b);
@@ -203,6 +207,8 @@ impl<'a> MovingPair<'a> {
                 if reach * rates.turn[0] > MAX_TURN {
                     return PairOver::TooLong;
                 }
+                let relative = kinematics.relative_with(&self.a, &self.b, center);
+                (relative, rates, error)
             }
             RelativeRates::Speed { speed, .. } => {
                 let (relative, rates) = self.relative(kinematics);
@@ -211,9 +217,10 @@ impl<'a> MovingPair<'a> {
                 if self.balls().stay_apart(apart, |_, _| reach * speed, error) {
                     return PairOver::Apart;
                 }
+                (relative, rates, error)
             }
-        }
-        let moved = self.moved(kinematics, span);
+        };
+        let moved = self.moved_over_interval(&relative, &rates, span, error);
         // Nothing is farther than what overflows.
         if moved.bends.iter().any(|bend| !bend.is_finite()) {
             return PairOver::TooLong;
@@ -224,7 +231,8 @@ impl<'a> MovingPair<'a> {
     /// How A moves over an interval.
     pub fn moved(&self, kinematics: &mut Kinematics, span: Span) -> Moved<OneTwist> {
         let (relative, rates) = self.relative(kinematics);
-        self.moved_over_interval(&relative, &rates, span)
+        let error = self.kinematics_error(&rates, span.reach());
+        self.moved_over_interval(&relative, &rates, span, error)
     }
 
     fn moved_over_interval(
@@ -232,6 +240,7 @@ impl<'a> MovingPair<'a> {
         relative: &Relative,
         rates: &MotionRates,
         span: Span,
+        kinematics_error: f64,
     ) -> Moved<OneTwist> {
         let (time, extension) = match span {
             Span::Around(half) => (half, Extension::BothWays),
@@ -245,7 +254,7 @@ impl<'a> MovingPair<'a> {
             }],
             extension,
             bends: self.bends(relative, rates, span.reach()),
-            kinematics_error: self.kinematics_error(rates, span.reach()),
+            kinematics_error,
         }
     }
 

@@ -3,16 +3,18 @@
 use super::crowd::CrowdOver;
 use super::hulls_tried::HullsTried;
 use super::moving_pair::MovingPair;
-use super::over_piece::{PairOver, TwistLists};
+use super::over_piece::{OverPiece, PairOver, TwistLists};
 use super::piece::Piece;
 use crate::reused::emptied;
 
 /// Pairs over one piece, made when they are first asked for.
 pub(super) struct OverPairs<'a, L: TwistLists> {
-    made: Vec<PairOver<'a, L>>,
-    /// The place of each pair in `made`, and the number of the piece for which it was made.
-    places: Vec<(u32, u32)>,
+    made: Vec<OverPiece<'a, L>>,
+    /// What is known of each pair, with its place in `made`, and the number of the piece for which that holds.
+    known: Vec<(PairOver<u32>, u32)>,
     piece: u32,
+    /// Of how many pairs something was asked in this piece.
+    asked: u64,
     /// The hulls of each pair.
     hulls: Vec<HullsTried>,
     /// The crowd looked at last, in this piece.
@@ -21,8 +23,8 @@ pub(super) struct OverPairs<'a, L: TwistLists> {
 
 /// The memory of [`OverPairs`].
 pub(super) struct OverPairsMemory<L: TwistLists + 'static> {
-    made: Vec<PairOver<'static, L>>,
-    places: Vec<(u32, u32)>,
+    made: Vec<OverPiece<'static, L>>,
+    known: Vec<(PairOver<u32>, u32)>,
     hulls: Vec<HullsTried>,
 }
 
@@ -30,7 +32,7 @@ impl<L: TwistLists> Default for OverPairsMemory<L> {
     fn default() -> Self {
         Self {
             made: Vec::new(),
-            places: Vec::new(),
+            known: Vec::new(),
             hulls: Vec::new(),
         }
     }
@@ -41,18 +43,19 @@ impl<'a, L: TwistLists> OverPairs<'a, L> {
     pub fn new(count: usize, memory: OverPairsMemory<L>) -> Self {
         let OverPairsMemory {
             made,
-            mut places,
+            mut known,
             mut hulls,
         } = memory;
-        places.clear();
-        places.resize(count, (0, 0));
+        known.clear();
+        known.resize(count, (PairOver::Apart, 0));
         hulls.clear();
         hulls.resize(count, HullsTried::default());
         Self {
             crowd: None,
             made: emptied(made),
-            places,
+            known,
             piece: 0,
+            asked: 0,
             hulls,
         }
     }
@@ -60,13 +63,14 @@ impl<'a, L: TwistLists> OverPairs<'a, L> {
     pub fn into_memory(self) -> OverPairsMemory<L> {
         OverPairsMemory {
             made: emptied(self.made),
-            places: self.places,
+            known: self.known,
             hulls: self.hulls,
         }
     }
 
     pub fn start(&mut self) {
         self.piece += 1;
+        self.asked = 0;
         self.made.clear();
         self.crowd = None;
     }
@@ -77,13 +81,13 @@ impl<'a, L: TwistLists> OverPairs<'a, L> {
     }
 
     /// Of how many pairs something was asked in this piece.
-    pub fn count(&self) -> usize {
-        self.made.len()
+    pub fn asked(&self) -> u64 {
+        self.asked
     }
 
     /// Notes that a pair, of which something was asked in this piece, stays apart through it.
     pub fn part(&mut self, number: usize) {
-        self.made[self.places[number].0 as usize] = PairOver::Apart;
+        self.known[number].0 = PairOver::Apart;
     }
 
     pub fn of<P: Piece<Lists = L>>(
@@ -91,12 +95,24 @@ impl<'a, L: TwistLists> OverPairs<'a, L> {
         number: usize,
         pairs: &[MovingPair<'a>],
         piece: &mut P,
-    ) -> &PairOver<'a, L> {
-        let (place, made_for) = &mut self.places[number];
-        if *made_for != self.piece {
-            (*place, *made_for) = (self.made.len() as u32, self.piece);
-            self.made.push(piece.over(&pairs[number]));
+    ) -> PairOver<&OverPiece<'a, L>> {
+        let (known, holds_for) = &mut self.known[number];
+        if *holds_for != self.piece {
+            *holds_for = self.piece;
+            self.asked += 1;
+            *known = match piece.over(&pairs[number]) {
+                PairOver::Apart => PairOver::Apart,
+                PairOver::TooLong => PairOver::TooLong,
+                PairOver::Near(over) => {
+                    self.made.push(over);
+                    PairOver::Near(self.made.len() as u32 - 1)
+                }
+            };
         }
-        &self.made[*place as usize]
+        match *known {
+            PairOver::Apart => PairOver::Apart,
+            PairOver::TooLong => PairOver::TooLong,
+            PairOver::Near(place) => PairOver::Near(&self.made[place as usize]),
+        }
     }
 }

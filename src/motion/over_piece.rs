@@ -72,14 +72,14 @@ impl<L: TwistLists> Moved<L> {
 }
 
 /// What is known of a pair at the beginning of a piece.
-#[allow(clippy::large_enum_variant)]
-pub(super) enum PairOver<'a, L: TwistLists> {
+#[derive(Clone, Copy)]
+pub(super) enum PairOver<T> {
     /// The balls around the bodies stay apart.
     Apart,
     /// The piece is too long for bounds of boxes to be of use.
     TooLong,
     /// Boxes and primitives may be looked at.
-    Near(OverPiece<'a, L>),
+    Near(T),
 }
 
 /// A pair through a piece.

@@ -3,7 +3,7 @@
 use super::box_piece::BoxPiece;
 use super::moving_pair::{Interval, MovingPair};
 use super::moving_pure::Extent;
-use super::over_piece::{ManyTwists, Moved, OneTwist, PairOver, TwistLists};
+use super::over_piece::{ManyTwists, Moved, OneTwist, OverPiece, PairOver, TwistLists};
 use super::span::Followed;
 
 /// A piece of what the robot does.
@@ -11,7 +11,7 @@ pub(super) trait Piece {
     type Lists: TwistLists;
 
     /// A pair through the piece.
-    fn over<'a>(&mut self, pair: &MovingPair<'a>) -> PairOver<'a, Self::Lists>;
+    fn over<'a>(&mut self, pair: &MovingPair<'a>) -> PairOver<OverPiece<'a, Self::Lists>>;
 
     /// How A moves through the piece.
     fn moved(&mut self, pair: &MovingPair) -> Moved<Self::Lists>;
@@ -23,7 +23,7 @@ pub(super) trait Piece {
 impl Piece for Interval<'_, '_> {
     type Lists = OneTwist;
 
-    fn over<'a>(&mut self, pair: &MovingPair<'a>) -> PairOver<'a, OneTwist> {
+    fn over<'a>(&mut self, pair: &MovingPair<'a>) -> PairOver<OverPiece<'a, OneTwist>> {
         match Followed::over_interval(pair.followed_from, self.time, self.span) {
             Followed::Yes => pair.over_interval(self.kinematics, self.span),
             Followed::InPart => PairOver::TooLong,
@@ -46,7 +46,7 @@ impl Piece for Interval<'_, '_> {
 impl Piece for BoxPiece<'_> {
     type Lists = ManyTwists;
 
-    fn over<'p>(&mut self, pair: &MovingPair<'p>) -> PairOver<'p, ManyTwists> {
+    fn over<'p>(&mut self, pair: &MovingPair<'p>) -> PairOver<OverPiece<'p, ManyTwists>> {
         self.pair_over(pair)
     }
 

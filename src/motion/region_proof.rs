@@ -320,7 +320,7 @@ impl<'a> Prover<'a, '_, '_> {
         let whole = set.look_at_all(lanes, &mut look, &rest.part, at, &mut lists.memory)?;
         let left = look.left(&rest.part);
         // Parts over which nothing can be said of pairs take work without a look at boxes.
-        let asked = 1 + lists.over.count() as u64;
+        let asked = 1 + lists.over.asked();
         self.context.scratch.meter_mut().count_nodes(asked);
         if self.context.scratch.meter().is_exceeded() {
             return Ok(Looked::Exceeded);
