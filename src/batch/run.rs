@@ -123,10 +123,10 @@ where
     }
 
     fn is_over(&self, item: usize) -> bool {
-        self.is_beyond_failure(item) || item > self.first_hit.load(Ordering::Relaxed)
+        self.is_ended_before(item) || item > self.first_hit.load(Ordering::Relaxed)
     }
 
-    fn is_beyond_failure(&self, item: usize) -> bool {
+    fn is_ended_before(&self, item: usize) -> bool {
         self.is_stopped() || item > self.last.load(Ordering::Relaxed)
     }
 
@@ -154,7 +154,7 @@ where
             worker.context.start_item(self.options.limit);
             let pulse = &mut || {
                 self.pulse(reporter.as_deref_mut());
-                match self.is_beyond_failure(number) {
+                match self.is_ended_before(number) {
                     true => Err(Error::new(ErrorKind::Cancelled, "the work is ended")),
                     false => Ok(()),
                 }

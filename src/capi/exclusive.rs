@@ -5,8 +5,8 @@ use try_lock::TryLock;
 use super::boundary::Failure;
 use crate::error::{Error, ErrorKind};
 
-/// An object that one call at a time may have. Nobody waits for it, so that letting go of it is a plain store: what a
-/// [`std::sync::Mutex`] takes for that, and for panics, is a sixth of a query of two spheres.
+/// An object that one call at a time may have. Nobody waits for it, so that letting go of it is a plain store: to a [`std::sync::Mutex`] it
+/// is an exchange, which shows in calls as short as those of two spheres.
 #[derive(Default)]
 pub struct Exclusive<T>(TryLock<Guarded<T>>);
 

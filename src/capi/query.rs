@@ -173,7 +173,7 @@ fn exclusively_with(
     query: &Query,
     action: impl FnOnce(&mut State) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    (query.0).with("the query context", State::renew, action)
+    query.0.with("the query context", State::renew, action)
 }
 
 /// Creates a query context.

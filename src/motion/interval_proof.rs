@@ -20,8 +20,9 @@ use crate::query::QueryContext;
 /// told over no longer time than was asked for.
 const SHORTEST_INTERVAL: f64 = 1.0 / (1u64 << 40) as f64;
 
-/// The same where rounding hides whether primitives are apart, of sets in which something else may still keep clear; of unions that is the
-/// tolerance. Distances that jitter by their rounding would else let a proof creep on by the shortest intervals.
+/// Where rounding hides whether primitives are apart, halves show no more, and distances that jitter by it would let a proof creep on by
+/// intervals of 1e-13: in unions such an interval is not halved once it is no longer than the tolerance, in other sets, of which another leaf
+/// may still keep clear, than this.
 const SHORTEST_GRAZED: f64 = 64.0 * SHORTEST_INTERVAL;
 
 /// The start is asked for by itself where an interval from it on, no longer than this, is undecided: most motions that planners ask for
