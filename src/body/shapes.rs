@@ -43,28 +43,28 @@ impl BodyBuilder {
         self.push(block(pose, half_extents)?, tag, false)
     }
 
-    /// Adds solid cubes along the axes, each with its lowest corner and its edge, tagged with their indices: polyhedra, exact to
+    /// Adds solid boxes along the axes, each with its lowest corner and its edges, tagged with their indices: polyhedra, exact to
     /// 1e-12 L.
-    pub fn add_cubes(&mut self, cubes: &[(Vec3, f64)]) -> Result<()> {
-        self.require_space("a cube")?;
+    pub fn add_aligned_boxes(&mut self, boxes: &[(Vec3, Vec3)]) -> Result<()> {
+        self.require_space("a box")?;
         // The hull is made once for each size.
-        let mut made: Vec<(f64, Convex)> = Vec::new();
-        let mut added = Vec::with_capacity(cubes.len());
-        for (i, &(low, edge)) in cubes.iter().enumerate() {
-            let named = |e: Error| e.within(format_args!("cube {i}"));
+        let mut made: Vec<(Vec3, Convex)> = Vec::new();
+        let mut added = Vec::with_capacity(boxes.len());
+        for (i, (low, edges)) in boxes.iter().enumerate() {
+            let named = |e: Error| e.within(format_args!("box {i}"));
             require_coordinates(low.as_slice(), "coordinate").map_err(named)?;
-            let half = Vec3::repeat(0.5 * edge);
-            let known = made.iter().position(|(of, _)| *of == edge);
+            let half = edges * 0.5;
+            let known = made.iter().position(|(of, _)| of == edges);
             let known = match known {
                 Some(known) => known,
                 None => {
-                    let cube = block(&Pose::identity(), &half).map_err(named)?;
-                    made.push((edge, cube));
+                    let shape = block(&Pose::identity(), &half).map_err(named)?;
+                    made.push((*edges, shape));
                     made.len() - 1
                 }
             };
-            let cube = made[known].1.clone().recentered(&-(low + half));
-            added.push((cube, i as u64));
+            let shape = made[known].1.clone().recentered(&-(low + half));
+            added.push((shape, i as u64));
         }
         self.push_all(added, false)
     }

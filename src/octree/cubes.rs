@@ -1,6 +1,6 @@
-//! Bodies of cubes.
+//! The body of all occupied cells.
 
-use super::cells::{Cells, Cube, GRID, WHOLE};
+use super::cells::{Cells, GRID, WHOLE};
 use crate::body::{Body, BodyBuilder};
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::HierarchyOptions;
@@ -37,23 +37,9 @@ pub fn whole_body(
     let mut cubes = Vec::with_capacity(count);
     cells.visit(WHOLE, 0, &mut |cube| {
         let edge = f64::from(cube.edge()) * resolution;
-        cubes.push((steps(cube.low) * resolution, edge));
+        cubes.push((steps(cube.low) * resolution, Vec3::repeat(edge)));
     });
     let mut builder = BodyBuilder::new(3)?;
-    builder.add_cubes(&cubes)?;
+    builder.add_aligned_boxes(&cubes)?;
     builder.build(options, progress)
-}
-
-/// The body of the cells within a cube, each grown by `overlap` on all sides, in a frame whose origin is the cube's lowest corner.
-pub fn body_within(cells: &Cells, within: Cube, resolution: f64, overlap: f64) -> Result<Body> {
-    let mut cubes = Vec::new();
-    cells.visit(within, 0, &mut |cube| {
-        let low = [0, 1, 2].map(|axis| f64::from(cube.low[axis] - within.low[axis]));
-        let edge = f64::from(cube.edge()) * resolution;
-        let low = Vec3::from(low) * resolution;
-        cubes.push((low.add_scalar(-overlap), edge + 2.0 * overlap));
-    });
-    let mut builder = BodyBuilder::new(3)?;
-    builder.add_cubes(&cubes)?;
-    builder.build(&HierarchyOptions::default(), &mut |_| Ok(()))
 }

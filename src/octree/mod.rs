@@ -10,6 +10,8 @@ mod octomap_file;
 #[allow(clippy::module_inception)]
 mod octree;
 mod placement;
+mod tile_bodies;
+mod tile_boxes;
 mod tiles;
 
 pub use cells::{Cells, Cube};

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::cells::{Cells, Cube, WHOLE};
 use super::cubes::steps;
-use super::tiles::{TILE_LEVEL, Tile, TileBodies, Tiles, outdated, within};
+use super::tile_bodies::TileBodies;
+use super::tiles::{TILE_LEVEL, Tile, Tiles, outdated, within};
 use crate::environment::{Addition, Change, Environment};
 use crate::error::Result;
 use crate::pose::{Pose, Vec3};
@@ -18,6 +19,7 @@ pub struct Placement {
     pose: Pose,
     data: Option<UserData>,
     tiles: Tiles,
+    bodies: TileBodies,
 }
 
 impl Placement {
@@ -34,6 +36,7 @@ impl Placement {
             pose: *pose,
             data,
             tiles: Tiles::new(),
+            bodies: TileBodies::default(),
         };
         // Also of no tiles, so that an environment that refuses changes is refused at once.
         placement.replace(cells, resolution, &[WHOLE])?;
@@ -99,19 +102,12 @@ impl Placement {
         }
         let mut changes = self.deletions(old.iter().map(|(_, tile)| *tile));
         let deleted = changes.len();
-        let mut bodies = TileBodies::default();
         for &cube in &new {
+            let overlap = overlap(&self.pose, cube, resolution);
+            let body = self.bodies.body(cells, cube, resolution, overlap)?;
             changes.push(Change::Add(Addition {
                 data: self.data.clone(),
-                ..Addition::new(
-                    bodies.body(
-                        cells,
-                        cube,
-                        resolution,
-                        overlap(&self.pose, cube, resolution),
-                    )?,
-                    pose_of(&self.pose, cube, resolution),
-                )
+                ..Addition::new(body, pose_of(&self.pose, cube, resolution))
             }));
         }
         let (ids, _) = self.environment.apply(&changes)?;
@@ -122,6 +118,7 @@ impl Placement {
             let place = super::tiles::place_of(cube.low);
             self.tiles.insert(place, Tile { cube, id });
         }
+        self.bodies.prune();
         Ok(())
     }
 

@@ -1,18 +1,12 @@
 //! The tiles that an octree is cut into, each an object of the environment that the octree is placed in.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use super::cells::{Cells, Cube, LEVELS};
-use super::cubes::body_within;
-use crate::body::Body;
-use crate::error::Result;
 
 /// A tile has 4 cells along an edge, or it is a larger cube of occupied cells. Larger tiles make fewer objects for queries to
-/// find, but a change of a cell builds the body of its tile anew: at most 64 boxes, with 8 cells along an edge at most 512.
-/// Four also lets 64 bits tell what a tile holds, so that equal ones share a body. On a floor of 64 x 64 cells, a cell
-/// changed in 1/285 of the time of the body built anew (`cargo test --release --test queries octree_costs -- --ignored
-/// --nocapture`, without optimizations).
+/// find, but a change of a cell builds the body of its tile anew: at most 32 boxes, with 8 cells along an edge at most 256.
+/// Four also lets 64 bits tell what a tile holds, so that equal ones share a body.
 pub const TILE_LEVEL: u32 = 2;
 
 /// A tile and its object.
@@ -79,43 +73,4 @@ pub fn outdated(tiles: &Tiles, cells: &Cells, changed: &[Cube]) -> Vec<Cube> {
         is_new
     });
     cubes
-}
-
-/// Bodies of tiles, each built once for one change: those of full cubes by their level, others by their cells, and all by how much
-/// they are grown.
-#[derive(Default)]
-pub struct TileBodies(BTreeMap<(u32, u64, u64), Arc<Body>>);
-
-impl TileBodies {
-    /// The body of a tile, its cells grown by `overlap` on all sides, in a frame whose origin is its lowest corner.
-    pub fn body(
-        &mut self,
-        cells: &Cells,
-        cube: Cube,
-        resolution: f64,
-        overlap: f64,
-    ) -> Result<Arc<Body>> {
-        let key = (cube.level, pattern(cells, cube), overlap.to_bits());
-        if let Some(known) = self.0.get(&key) {
-            return Ok(known.clone());
-        }
-        let body = Arc::new(body_within(cells, cube, resolution, overlap)?);
-        self.0.insert(key, body.clone());
-        Ok(body)
-    }
-}
-
-/// Which of a tile's cells are occupied, one bit each; of tiles above [`TILE_LEVEL`], which are full, all bits.
-fn pattern(cells: &Cells, tile: Cube) -> u64 {
-    if tile.level > TILE_LEVEL {
-        return u64::MAX;
-    }
-    let first = place_of(tile.low);
-    let mut bits = 0;
-    cells.visit(tile, 0, &mut |cube| {
-        let volume = 1u32 << (3 * cube.level);
-        let ones = u64::MAX >> (64 - volume);
-        bits |= ones << (place_of(cube.low) - first);
-    });
-    bits
 }

@@ -349,6 +349,26 @@ fn a_change_replaces_only_the_objects_around_it() {
     assert_eq!(octree.cell_count(), (model.len() - 1) as u64);
 }
 
+/// Cells in a row are one box, and tiles with equal cells share a body, whichever change made them.
+#[test]
+fn tiles_are_few_boxes_and_share_their_bodies() {
+    let world = Arc::new(Environment::default());
+    let mut octree = Octree::new(0.5).unwrap();
+    let mut model = Model::new();
+    octree.place(&world, &Pose::identity(), None).unwrap();
+    // About as far from the origin, so that they are grown by as much.
+    for x in [20, 24, 28] {
+        change(&mut octree, &mut model, [x, 0, 1], [4, 4, 2], true);
+    }
+    change(&mut octree, &mut model, [0, 8, 8], [2, 1, 1], true);
+    let state = world.snapshot();
+    let bodies: Vec<&Arc<Body>> = state.objects().map(|object| &object.body).collect();
+    assert_eq!(bodies.len(), 4);
+    assert!(bodies.iter().all(|body| body.primitives().len() == 1));
+    let shared = |i: usize| Arc::ptr_eq(bodies[0], bodies[i]);
+    assert_eq!([1, 2, 3].map(shared), [true, true, false]);
+}
+
 /// What is there already stays as it is.
 #[test]
 fn cells_that_are_occupied_already_change_nothing() {
