@@ -52,4 +52,4 @@ pub use placed::{PlacedBuffer, PlacedPrimitive, Precision};
 pub use polygon_distance::{NearestFeatures, PolygonDistance, polygon_closest, polygon_distance};
 pub use polytope_distance::{DistanceScratch, cuboid};
 pub use polytope_penetration::{HalfSpace, Penetration, parting_half_spaces};
-pub use sweep::{Extension, Sweep, SweepTwist, stays_apart_along};
+pub use sweep::{Extension, Sweep, stays_apart_along};

@@ -3,17 +3,10 @@
 use super::core::Core;
 use super::placed::PlacedPrimitive;
 use crate::gjk::Support;
-use crate::pose::Vec3;
+use crate::pose::{Displacement, Vec3};
 
-/// Primitives with more vertices are bounded by support points: each twist then takes off the most that any vertex gives it.
+/// Primitives with more vertices are bounded by support points: each displacement then takes off the most that any vertex gives it.
 const MAX_LISTED_VERTICES: usize = 64;
-
-/// A displacement of A's points x, seen from B: linear + angular x x.
-#[derive(Clone, Copy, Debug)]
-pub struct SweepTwist {
-    pub linear: Vec3,
-    pub angular: Vec3,
-}
 
 /// Which way displacements go from where primitives and boxes are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,11 +17,11 @@ pub enum Extension {
     OneWay,
 }
 
-/// How A moves, seen from B: by a sum of displacements. For an interval of time there is one, a velocity times a time; for a box of
+/// How A's points move, seen from B: by a sum of displacements. For an interval of time there is one, a velocity times a time; for a box of
 /// configurations there is one for each coordinate.
 #[derive(Clone, Copy, Debug)]
 pub struct Sweep<'a> {
-    pub twists: &'a [SweepTwist],
+    pub displacements: &'a [Displacement],
     pub extension: Extension,
     /// What the acceleration may take off a gap where the displacement ends, along a direction that moves with A, and along one
     /// that rests with B.
@@ -45,11 +38,11 @@ pub fn stays_apart_along(
     sweep: &Sweep,
     needed: f64,
 ) -> bool {
-    let &[twist] = sweep.twists else {
+    let &[by] = sweep.displacements else {
         return stays_apart_over_box(a, b, direction, sweep, needed);
     };
-    let turned = direction.cross(&twist.angular);
-    let shift = direction.dot(&twist.linear);
+    let turned = direction.cross(&by.angular);
+    let shift = direction.dot(&by.linear);
     let of_b = least_along(b, &-direction);
     let [with_a, with_b] = sweep.bends;
     if sweep.extension == Extension::OneWay {
@@ -79,9 +72,9 @@ fn stays_apart_over_box(
 ) -> bool {
     let [with_a, with_b] = sweep.bends;
     let rests_with_b =
-        least_moved(a, direction, 1.0, sweep.twists) + least_along(b, &-direction) - with_b;
+        least_moved(a, direction, 1.0, sweep.displacements) + least_along(b, &-direction) - with_b;
     rests_with_b > needed
-        || least_along(a, direction) + least_moved(b, direction, -1.0, sweep.twists) - with_a
+        || least_along(a, direction) + least_moved(b, direction, -1.0, sweep.displacements) - with_a
             > needed
 }
 
@@ -91,18 +84,13 @@ fn least_moved(
     placed: &PlacedPrimitive,
     direction: &Vec3,
     sign: f64,
-    twists: &[SweepTwist],
+    displacements: &[Displacement],
 ) -> f64 {
-    let along = |twist: &SweepTwist| {
-        (
-            direction.cross(&twist.angular),
-            direction.dot(&twist.linear),
-        )
-    };
+    let along = |by: &Displacement| (direction.cross(&by.angular), direction.dot(&by.linear));
     let is_listed = placed.shape.smooth().is_none() && placed.vertex_count() <= MAX_LISTED_VERTICES;
     if !is_listed {
-        let moved = twists.iter().map(|twist| {
-            let (turned, shift) = along(twist);
+        let moved = displacements.iter().map(|by| {
+            let (turned, shift) = along(by);
             let least = shift + least_along(placed, &turned);
             let most = shift - least_along(placed, &-turned);
             most.max(-least)
@@ -113,15 +101,15 @@ fn least_moved(
     for index in 0..placed.vertex_count() as u32 {
         let vertex = placed.vertex(index);
         let mut place = sign * direction.dot(&vertex);
-        for twist in twists {
-            let (turned, shift) = along(twist);
+        for by in displacements {
+            let (turned, shift) = along(by);
             place -= (shift + turned.dot(&vertex)).abs();
         }
         least = least.min(place);
     }
     let radius = placed.shape.radius();
     if radius > 0.0 {
-        let turns = twists.iter().map(|twist| along(twist).0.norm());
+        let turns = displacements.iter().map(|by| along(by).0.norm());
         least -= radius * (direction.norm() + turns.sum::<f64>());
     }
     least

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 
 use super::carried::Carried;
 use super::moving_pair::{MAX_TURN, MovingPair};
-use super::over_piece::{Displacement, ManyTwists, Moved, OverPiece, PairOver};
+use super::over_piece::{ManyTwists, Moved, OverPiece, PairOver};
 use super::pair_rates::PairRates;
 use super::way::Way;
 use crate::body::Body;
@@ -124,7 +124,7 @@ impl<'a> BoxPiece<'a> {
         }
         for twist in &found.twists {
             let share = &mut shares[twist.velocity as usize];
-            *share = share.max(twist.linear.norm() + twist.angular.norm() * radius);
+            *share = share.max(twist.by.linear.norm() + twist.by.angular.norm() * radius);
         }
     }
 
@@ -137,7 +137,8 @@ impl<'a> BoxPiece<'a> {
         let origin = self.twists.pose(link).translation;
         let twists = self.twists.between(link, None, &origin);
         let along = twists.iter().map(|twist| {
-            direction.dot(&twist.linear).abs() + direction.cross(&twist.angular).norm() * radius
+            let by = &twist.by;
+            direction.dot(&by.linear).abs() + direction.cross(&by.angular).norm() * radius
         });
         let rates = &self.in_world()[link];
         let bend = 0.5 * (rates.turn[1] * radius + rates.origin[1]);
@@ -152,7 +153,10 @@ impl PairInBox {
         match &self.second_order {
             SecondOrder::Farthest(distance) => *distance,
             SecondOrder::Rates(rates) => {
-                let along = self.twists.iter().map(|by| by.linear.dot(apart).abs());
+                let along = self
+                    .twists
+                    .iter()
+                    .map(|twist| twist.by.linear.dot(apart).abs());
                 along.sum::<f64>() / distance.max(f64::MIN_POSITIVE) + 0.5 * rates.origin[1]
             }
         }
@@ -175,14 +179,7 @@ impl PairInBox {
         };
         Moved {
             poses: self.poses,
-            displacements: self
-                .twists
-                .iter()
-                .map(|by| Displacement {
-                    linear: by.linear,
-                    angular: by.angular,
-                })
-                .collect(),
+            displacements: self.twists.iter().map(|twist| twist.by).collect(),
             extension: Extension::BothWays,
             bends,
             kinematics_error: self.kinematics_error,

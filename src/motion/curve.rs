@@ -1,5 +1,6 @@
 //! Motions on Bezier curves and B-splines through C-space.
 
+use super::coordinate_motion::{check_quaternions, speeds};
 use super::linear_motion::LinearMotion;
 use super::motion::MotionOptions;
 use super::motion_answer::{MotionAnswer, MotionOutcome};
@@ -7,7 +8,7 @@ use super::way::{Way, WayKind};
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result};
 use crate::query::{QueryContext, World};
-use crate::robot::{BlockKind, MAX_DEGREE, between, bezier_speed};
+use crate::robot::{MAX_DEGREE, between, bezier_speed};
 use crate::space::Space;
 
 /// A B-spline through C-space: its parameter goes from the knot of number `degree` to that of number `points / nq`.
@@ -99,7 +100,8 @@ impl QueryContext {
     ) -> Result<MotionAnswer> {
         let space = cobject.space();
         let q = &points[..space.nq()];
-        let v = &speeds(space, points);
+        let speed = |c: usize| bezier_speed(points.iter().skip(c).step_by(space.nq()).copied());
+        let v = &speeds(space, points, speed);
         let line = LinearMotion {
             world,
             cobject,
@@ -132,31 +134,7 @@ fn check_points(space: &Space, points: &[f64]) -> Result<()> {
         space.check_configuration(point).map_err(named)?;
     }
     let rests = |c: usize| points.iter().skip(c).step_by(nq).all(|x| *x == points[c]);
-    for block in space.blocks() {
-        if let Some(c) = block.tied_coordinates().find(|c| !rests(*c)) {
-            return Err(Error::new(
-                ErrorKind::Unsupported,
-                format!(
-                    "coordinate {c} belongs to a joint with a quaternion, which cannot move on a curve of coordinates"
-                ),
-            ));
-        }
-    }
-    Ok(())
-}
-
-/// The largest speed of every coordinate, with signs that lead away from zero.
-fn speeds(space: &Space, points: &[f64]) -> Vec<f64> {
-    let nq = space.nq();
-    let mut speeds = vec![0.0; space.nv()];
-    for block in space.blocks() {
-        if block.kind == BlockKind::Line {
-            let c = block.coordinate;
-            let speed = bezier_speed(points.iter().skip(c).step_by(nq).copied());
-            speeds[block.velocity] = speed.copysign(points[c]);
-        }
-    }
-    speeds
+    check_quaternions(space, rests, "on a curve of coordinates")
 }
 
 impl Spline<'_> {

@@ -4,6 +4,7 @@ mod balls;
 mod box_piece;
 mod carried;
 mod clearance;
+mod coordinate_motion;
 mod crowd;
 mod curve;
 mod first_contact;

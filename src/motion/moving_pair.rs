@@ -3,17 +3,17 @@
 use super::balls::Balls;
 use super::carried::Carried;
 use super::kinematics::{CenterMotion, Kinematics, Relative};
-use super::over_piece::{Displacement, Moved, OneTwist, OverPiece, PairOver, TwistLists};
+use super::over_piece::{Moved, OneTwist, OverPiece, PairOver, TwistLists};
 use super::pair_rates::PairRates;
 use super::span::Span;
 use crate::body::Body;
-use crate::convex::{Extension, SweepTwist};
+use crate::convex::Extension;
 use crate::hierarchy::packed::power_of_two_above;
 use crate::lanes::each3;
 use crate::pair::{
     Motion32, Pairing, PrimitiveScratch, ROUNDING, SweptLimits, Twist32, sum_factor,
 };
-use crate::pose::{Pose, Vec3, turned_back};
+use crate::pose::{Displacement, Pose, Vec3};
 use crate::robot::{ChainRounding, LinkMotions, MotionRates};
 use crate::tolerance::SUM_SLACK;
 
@@ -280,26 +280,20 @@ impl<'a> MovingPair<'a> {
         let inverse = 1.0 / scale;
         let [tree_a, tree_b] = [a.packed(), b.packed()];
         let to_b = &pairing.relative;
-        let sweep_twists = L::map(&moved.displacements, |by| SweepTwist {
-            linear: turned_back(&pose_a.rotation, &by.linear),
-            angular: turned_back(&pose_a.rotation, &by.angular),
-        });
+        let displacements = L::map(&moved.displacements, |by| by.turned_back(&pose_a.rotation));
         let twist = |linear: Vec3, angular: Vec3| Twist32 {
             angular: each3(|k| angular[k] as f32),
             linear: each3(|k| (linear[k] * inverse) as f32),
         };
         // As A sees it, B moves the other way: what one box makes of its own motion has to be the motion of that box.
-        let in_a = L::map(&sweep_twists, |by| twist(-by.linear, -by.angular));
-        let in_b = L::map(&sweep_twists, |by| {
-            let at_origin = by.linear + by.angular.cross(&to_b.translation);
-            twist(
-                turned_back(&to_b.rotation, &at_origin),
-                turned_back(&to_b.rotation, &by.angular),
-            )
+        let in_a = L::map(&displacements, |by| twist(-by.linear, -by.angular));
+        let in_b = L::map(&displacements, |by| {
+            let in_b = by.told_of(&to_b.translation).turned_back(&to_b.rotation);
+            twist(in_b.linear, in_b.angular)
         });
         // Displacements are lengths like others: what they are rounded to, gaps lose too.
         let (mut moved_at_size, mut displacement, mut turn) = (0.0, bends[1], 0.0);
-        for by in sweep_twists.as_ref() {
+        for by in displacements.as_ref() {
             let (linear, angular) = (by.linear.norm(), by.angular.norm());
             moved_at_size += linear + angular * size;
             displacement += linear + angular * radius;
@@ -310,7 +304,7 @@ impl<'a> MovingPair<'a> {
         // bend, which holds of the points near A.
         let growth = turn * turn / (1.0 + turn.hypot(1.0)) * SUM_SLACK;
         let box_bends = [bends[0] + growth * tree_b.core_radius(), bends[1]];
-        moved_at_size *= sum_factor(sweep_twists.as_ref().len());
+        moved_at_size *= sum_factor(displacements.as_ref().len());
         let larger = 1.0 + moved_at_size / size;
         let slack = (pairing.slack() + moved.kinematics_error) * larger;
         let cores = tree_a.core_radius() + tree_b.core_radius();
@@ -332,7 +326,7 @@ impl<'a> MovingPair<'a> {
                 displacement,
             },
             core_radii: [tree_a, tree_b].map(|tree| (tree.core_radius() * inverse) as f32),
-            sweep_twists,
+            displacements,
             extension: moved.extension,
             sweep_bends: bends,
             pairing,

@@ -2,9 +2,9 @@
 
 use smallvec::SmallVec;
 
-use crate::convex::{Extension, Sweep, SweepTwist};
+use crate::convex::{Extension, Sweep};
 use crate::pair::{Motion32, Pairing, SweptLimits, Twist32};
-use crate::pose::{Pose, Vec3, turned};
+use crate::pose::{Displacement, Pose, Vec3, turned};
 
 /// The lists that hold one entry for each twist of a piece. An interval has one twist, and its list is an array, so that loops over it
 /// cost nothing.
@@ -37,18 +37,11 @@ impl TwistLists for ManyTwists {
     }
 }
 
-/// A displacement of a body: of its centre, and its turn in radians.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Displacement {
-    pub linear: Vec3,
-    pub angular: Vec3,
-}
-
 /// How A moves through a piece, as B sees it, with the components in the world's frame.
 pub(super) struct Moved<L: TwistLists> {
     /// Of both bodies, in the world, where they are compared.
     pub poses: [Pose; 2],
-    /// From where boxes and primitives are compared to the sides of the piece.
+    /// Of A's centre, from where boxes and primitives are compared to the sides of the piece.
     pub displacements: L::Of<Displacement>,
     pub extension: Extension,
     /// As [`Sweep::bends`].
@@ -60,10 +53,7 @@ impl<L: TwistLists> Moved<L> {
     /// The same with the displacements of a point that A carries, `arm` from its centre, in A's frame.
     pub fn seen_from(self, arm: &Vec3) -> Self {
         let arm = turned(&self.poses[0].rotation, arm);
-        let displacements = L::map(&self.displacements, |by| Displacement {
-            linear: by.linear + by.angular.cross(&arm),
-            ..*by
-        });
+        let displacements = L::map(&self.displacements, |by| by.told_of(&arm));
         Self {
             displacements,
             ..self
@@ -94,8 +84,8 @@ pub(super) struct OverPiece<'a, L: TwistLists> {
     pub bends: [f32; 2],
     /// What the cores' boxes leave out around them, of A and of B, in units of the pair.
     pub core_radii: [f32; 2],
-    /// In A's frame.
-    pub sweep_twists: L::Of<SweepTwist>,
+    /// Of A's centre, in A's frame.
+    pub displacements: L::Of<Displacement>,
     pub sweep_bends: [f64; 2],
     pub limits: SweptLimits,
     /// Boxes with a larger gap do not meet, in units of the pair.
@@ -107,7 +97,7 @@ pub(super) struct OverPiece<'a, L: TwistLists> {
 impl<L: TwistLists> OverPiece<'_, L> {
     pub fn sweep(&self) -> Sweep<'_> {
         Sweep {
-            twists: self.sweep_twists.as_ref(),
+            displacements: self.displacements.as_ref(),
             extension: self.extension,
             bends: self.sweep_bends,
         }

@@ -12,7 +12,7 @@ use crate::cobject::{
 };
 use crate::error::{Error, ErrorKind, Result};
 use crate::query::{QueryContext, World};
-use crate::robot::{Coordinate, JointKind};
+use crate::robot::{Coordinate, JointKind, ToCarrier};
 use crate::space::Space;
 
 /// The number of cells along an axis: of a grid over one coordinate, over two and over three.
@@ -187,16 +187,7 @@ impl PairProof<'_> {
 /// joints, or where one has no bounds.
 fn axes_between(space: &Space, links: [usize; 2]) -> Option<SmallVec<[CellAxis; MAX_CELL_AXES]>> {
     let mut coordinates: SmallVec<[[usize; 2]; MAX_CELL_AXES]> = SmallVec::new();
-    let [mut r, mut s] = links.map(Some);
-    // Links have larger numbers than what carries them: the larger cannot carry the smaller.
-    while r != s {
-        let link = r.max(s)?;
-        let parent = space.parent(link);
-        for end in [&mut r, &mut s] {
-            if *end == Some(link) {
-                *end = parent;
-            }
-        }
+    for (_, link) in ToCarrier::new(links.map(Some), |link| space.parent(link)) {
         let joint = &space.link(link)?.joint;
         match joint.kind {
             JointKind::Fixed => continue,

@@ -2,8 +2,9 @@
 
 use std::cell::RefCell;
 
+use super::coordinate_motion::{check_quaternions, speeds};
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
-use crate::robot::{BlockKind, CourseState, LinkMotions};
+use crate::robot::{CourseState, LinkMotions};
 use crate::space::Space;
 
 /// What a function gives may exceed its bounds by so much, relative: the rounding of both. Proofs use bounds that are larger by it.
@@ -81,18 +82,12 @@ impl<'a> StatedMotion<'a> {
             max_rates: larger(bounds.max_rates, "max_rates")?,
             max_accelerations: larger(bounds.max_accelerations, "max_accelerations")?,
         };
-        for block in space.blocks() {
-            let mut tied = block.tied_coordinates();
-            if let Some(c) = tied.find(|&c| motion.max_rates[c] != 0.0) {
-                return Err(Error::new(
-                    ErrorKind::Unsupported,
-                    format!(
-                        "coordinate {c} belongs to a joint with a quaternion, which cannot move as a function of coordinates: \
-                         max_rates must be 0"
-                    ),
-                ));
-            }
-        }
+        let rests = |c: usize| motion.max_rates[c] == 0.0;
+        check_quaternions(
+            space,
+            rests,
+            "as a function of coordinates: max_rates must be 0",
+        )?;
         let first = motion.asked(0.0)?;
         motion.start.clone_from(&first.q);
         motion.known[0] = RefCell::new(Some((0.0, first)));
@@ -206,14 +201,7 @@ impl<'a> StatedMotion<'a> {
 
     /// The largest speed of every coordinate, with signs that lead away from zero.
     pub fn speeds(&self) -> Vec<f64> {
-        let mut speeds = vec![0.0; self.space.nv()];
-        for block in self.space.blocks() {
-            if block.kind == BlockKind::Line {
-                let c = block.coordinate;
-                speeds[block.velocity] = self.max_rates[c].copysign(self.start[c]);
-            }
-        }
-        speeds
+        speeds(self.space, &self.start, |c| self.max_rates[c])
     }
 }
 

@@ -5,7 +5,8 @@ use smallvec::SmallVec;
 
 use super::course::Course;
 use super::link_motions::{Element, LinkMotions};
-use crate::pose::{Pose, Vec3, turned};
+use super::to_carrier::ToCarrier;
+use crate::pose::{Displacement, Pose, Vec3, turned};
 
 /// What one coordinate does to a link, from the middle of a box to its side: the world's points x that move with the link move by
 /// `linear + angular x (x - point)`.
@@ -22,10 +23,8 @@ struct OwnTwist {
 pub struct RelativeTwist {
     /// The number of the coordinate's velocity.
     pub velocity: u32,
-    /// The displacement of the body's centre, in the world's axes.
-    pub linear: Vec3,
-    /// The turn, in radians, about this axis of the world.
-    pub angular: Vec3,
+    /// Of the body's centre, along the world's axes.
+    pub by: Displacement,
 }
 
 /// One entry for each coordinate that moves the one as the other sees it.
@@ -158,33 +157,23 @@ impl<'a> LinkTwists<'a> {
     /// that carry both do nothing; a coordinate that moves several joints is one entry.
     pub fn between(&self, link: usize, from: Option<usize>, center: &Vec3) -> RelativeTwists {
         let mut found = RelativeTwists::new();
-        // Parents have smaller numbers, and no number is the world's.
-        let (mut ahead, mut back) = (Some(link), from);
-        while ahead != back {
-            let (side, sign) = if ahead > back {
-                (&mut ahead, 1.0)
-            } else {
-                (&mut back, -1.0)
-            };
-            let Some(index) = *side else {
-                break;
-            };
-            for own in self.own_of(index) {
+        let carriers = ToCarrier::new([Some(link), from], |link| self.motions.parent(link));
+        for (end, carrier) in carriers {
+            let sign = if end == 0 { 1.0 } else { -1.0 };
+            for own in self.own_of(carrier) {
                 let linear = sign * (own.linear + own.angular.cross(&(center - own.point)));
                 let angular = sign * own.angular;
                 match found.iter_mut().find(|f| f.velocity == own.velocity) {
                     Some(same) => {
-                        same.linear += linear;
-                        same.angular += angular;
+                        same.by.linear += linear;
+                        same.by.angular += angular;
                     }
                     None => found.push(RelativeTwist {
                         velocity: own.velocity,
-                        linear,
-                        angular,
+                        by: Displacement { linear, angular },
                     }),
                 }
             }
-            *side = self.motions.parent(index);
         }
         found
     }

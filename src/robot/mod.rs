@@ -20,6 +20,7 @@ mod rates_from;
 #[allow(clippy::module_inception)]
 mod robot;
 mod semantics;
+mod to_carrier;
 mod whole;
 
 pub use builder::{LinkDefinition, RobotBuilder};
@@ -41,3 +42,4 @@ pub use semantics::{
     EndEffector, JointGroup, NamedState, PairRules, SemanticName, Semantics, VirtualJoint,
     VirtualJointKind,
 };
+pub use to_carrier::ToCarrier;

@@ -1,6 +1,7 @@
 //! Motion bounds: how far a link can move between two configurations. They are the constants of Quinlan's bubbles (1994),
 //! and the same along one direction.
 
+use super::to_carrier::ToCarrier;
 use super::{JointKind, Link, Robot, RobotState};
 use crate::nonzero::{length, product};
 use crate::pose::{Mat3, Vec3};
@@ -234,18 +235,7 @@ impl Robot {
 
     /// The lowest common ancestor of two links (it may be one of them); `None` for the world.
     pub fn common_carrier(&self, links: [usize; 2]) -> Option<usize> {
-        let [mut a, mut b] = links.map(Some);
-        // Parents have smaller numbers.
-        while a != b {
-            let above = a.max(b)?;
-            let parent = self.links()[above].parent;
-            if a > b {
-                a = parent;
-            } else {
-                b = parent;
-            }
-        }
-        a
+        ToCarrier::new(links.map(Some), |link| self.links()[link].parent).carrier()
     }
 }
 
