@@ -1,5 +1,6 @@
 //! Primitives: convex polygons, convex hulls of points, rounded and smooth sets. The leaves of every hierarchy.
 
+mod block;
 mod convex;
 mod cuboid;
 mod curve;
@@ -25,6 +26,7 @@ mod smooth;
 mod support_function;
 mod topology;
 
+pub use block::{BLOCK_FACES, block};
 pub use convex::{Convex, Face};
 pub use cuboid::Cuboid;
 pub use curve::Curve;
@@ -39,7 +41,7 @@ pub use polygon::convex_polygon;
 pub use polyhedron::convex_polyhedron;
 pub use posed::PosedPrimitives;
 pub use primitives::{Primitive, PrimitiveGroup, Primitives};
-pub use ready_made::{block, capsule, cone, cylinder, ellipsoid, rounded, sphere, support_set};
+pub use ready_made::{capsule, cone, cylinder, ellipsoid, rounded, sphere, support_set};
 pub use round::Round;
 pub use smooth::{HIGH_END, LOW_END, Smooth, SmoothKind};
 pub use support_function::{SupportFunction, WatchedSupport};

@@ -192,7 +192,7 @@ fn merge_coplanar(vertices: &[Vec3], triangles: &[[u32; 3]], tolerance: f64) -> 
 
 /// The largest distance of a vertex from a face it bounds; if merging left a vertex without a face, the merging tolerance is
 /// added.
-fn deviation_of(vertices: &[Vec3], faces: &[Face], merging: f64) -> f64 {
+pub(super) fn deviation_of(vertices: &[Vec3], faces: &[Face], merging: f64) -> f64 {
     let mut bounds_a_face = vec![false; vertices.len()];
     let mut deviation = 0.0f64;
     for face in faces {

@@ -1,4 +1,4 @@
-//! Constructors of primitives: balls, capsules, boxes, cylinders, cones, ellipsoids and sets by support functions, and the
+//! Constructors of primitives: balls, capsules, cylinders, cones, ellipsoids and sets by support functions, and the
 //! rounding of any primitive by a radius.
 
 use std::sync::Arc;
@@ -40,20 +40,6 @@ pub fn capsule(ends: &[Vec3; 2], radius: f64, planar: bool) -> Result<Convex> {
             .map_err(|e| e.within(format_args!("end {name}")))?;
     }
     rounded(convex_polyhedron(ends)?, radius, planar)
-}
-
-/// The box of these half extents around the origin of the pose, along its axes.
-pub fn block(pose: &Pose, half_extents: &Vec3) -> Result<Convex> {
-    for (axis, &half) in ["x", "y", "z"].iter().zip(half_extents.iter()) {
-        require_size(half, &format!("half extent {axis}"))?;
-    }
-    let corners: Vec<Vec3> = (0..8)
-        .map(|i| {
-            let signs = [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { -1.0 } else { 1.0 });
-            pose.transform_point(&Vec3::from(signs).component_mul(half_extents))
-        })
-        .collect();
-    convex_polyhedron(&corners)
 }
 
 /// The cylinder around the z axis of the pose, from -half_length to half_length.
@@ -127,7 +113,7 @@ fn too_small(what: &str, value: f64) -> Error {
 }
 
 /// Refuses sizes that are not finite, negative, zero or beyond the accepted range.
-fn require_size(value: f64, what: &str) -> Result<()> {
+pub(super) fn require_size(value: f64, what: &str) -> Result<()> {
     require_number(value, what)?;
     if value < 0.0 {
         return Err(Error::invalid(format!("{what} is negative: {value}")));

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::wrapper::Wrapper;
 use crate::boxes::Extent;
 use crate::pose::Vec3;
-use crate::primitive::convex_polyhedron;
+use crate::primitive::{BLOCK_FACES, convex_polyhedron};
 
 /// Rings and sectors of the polyhedron that a sphere is drawn as.
 const RINGS: usize = 12;
@@ -95,17 +95,9 @@ impl Surface {
 }
 
 fn aligned_box(extent: &Extent) -> Surface {
-    let faces = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
     Surface {
         vertices: extent.corners().into(),
-        faces: faces.map(Vec::from).into(),
+        faces: BLOCK_FACES.map(Vec::from).into(),
     }
 }
 
