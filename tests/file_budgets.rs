@@ -482,3 +482,28 @@ fn claims_of_headers_reserve_nothing() {
     refused(read, ErrorKind::Unsupported, &["bytes"]);
     assert!(peak < MEGABYTE, "{peak} bytes");
 }
+
+/// A star's face is split in time that grows with the square of its corners, in each instance anew.
+#[test]
+fn a_face_that_takes_long_to_split_counts_in_each_instance() {
+    let _one = alone();
+    let folder = Folder::new("star");
+    let corners = 1 << 13;
+    let star: String = (0..corners)
+        .map(|i| {
+            let angle = std::f64::consts::TAU * f64::from(i) / f64::from(corners);
+            let radius = if i % 2 == 0 { 1.0 } else { 0.5 };
+            format!("{} {} 0 ", radius * angle.cos(), radius * angle.sin())
+        })
+        .collect();
+    let numbers: String = (0..corners).map(|i| format!("{i} ")).collect();
+    let polygons =
+        format!("<polylist>{INPUT}<vcount>{corners}</vcount><p>{numbers}</p></polylist>");
+    let with = |count: usize| {
+        let scene = format!("<node>{}</node>", INSTANCE.repeat(count));
+        folder.write("star.dae", dae(&star, &polygons, "", &scene))
+    };
+    assert_eq!(read_mesh_file(&with(33)).unwrap().face_sizes.len(), 33);
+    let culprits = ["<instance_geometry>", "line", "squares of corners"];
+    refused(read_mesh_file(&with(34)), ErrorKind::Unsupported, &culprits);
+}

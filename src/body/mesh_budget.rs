@@ -15,6 +15,9 @@ pub const MAX_REPEATED_FACES: u64 = 1 << 20;
 /// The most indices of such faces: four per face.
 pub const MAX_REPEATED_INDICES: u64 = 4 * MAX_REPEATED_FACES;
 
+/// The most that the squares of the corners of such faces may add up to. Splitting faces that are not convex takes as long: some 10 s.
+pub const MAX_REPEATED_SQUARES: u64 = 1 << 31;
+
 /// The most corners of one face. Splitting a non-convex face takes quadratic time: some 10 s for this many corners.
 const MAX_FACE_CORNERS: u32 = 1 << 14;
 
@@ -28,14 +31,18 @@ pub struct MeshSize {
     pub faces: u64,
     /// Number of vertex indices of all faces.
     pub indices: u64,
+    /// The squares of the faces' numbers of corners, added up.
+    pub squares: u64,
 }
 
 impl MeshSize {
     /// The size of a mesh.
     pub fn of(mesh: &Mesh) -> Self {
+        let squares = mesh.face_sizes.iter().map(|&n| u64::from(n).pow(2));
         Self {
             faces: mesh.face_sizes.len() as u64,
             indices: mesh.indices.len() as u64,
+            squares: squares.fold(0, u64::saturating_add),
         }
     }
 
@@ -43,6 +50,7 @@ impl MeshSize {
         Self {
             faces: self.faces.saturating_add(other.faces),
             indices: self.indices.saturating_add(other.indices),
+            squares: self.squares.saturating_add(other.squares),
         }
     }
 
@@ -50,6 +58,7 @@ impl MeshSize {
         let counts = [
             ("faces", self.faces, max.faces),
             ("indices of faces", self.indices, max.indices),
+            ("squares of corners of faces", self.squares, max.squares),
         ];
         match counts.into_iter().find(|(_, count, max)| count > max) {
             None => Ok(()),
@@ -76,6 +85,7 @@ impl MeshBudget {
         let max = MeshSize {
             faces: MAX_FACES,
             indices: MAX_INDICES,
+            squares: u64::MAX,
         };
         self.all.require(max, "")?;
         if is_repeated {
@@ -84,6 +94,7 @@ impl MeshBudget {
         let max = MeshSize {
             faces: MAX_REPEATED_FACES,
             indices: MAX_REPEATED_INDICES,
+            squares: MAX_REPEATED_SQUARES,
         };
         self.repeated.require(max, " of repeated meshes")
     }

@@ -123,8 +123,8 @@ impl State {
         self.path = points;
         cstk_path {
             points: start(&self.path),
-            // Without coordinates there is one configuration, and nothing to list.
-            count: self.path.len().checked_div(nq).unwrap_or(0),
+            // Without coordinates there is one configuration, of no numbers.
+            count: self.path.len().checked_div(nq).unwrap_or(1),
             nq,
             reserved: [0; 3],
         }

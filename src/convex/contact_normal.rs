@@ -126,13 +126,19 @@ impl ContactPair<'_> {
     /// overlap least.
     fn normal_at_touch(&self) -> Option<Vec3> {
         let tie = tolerance::GAP_TIE * self.precision.size;
+        let rounding = tolerance::SUPPORT_ERROR * self.precision.size;
         let mut best: Option<(f64, Vec3)> = None;
         for candidate in self.local_normals() {
-            for n in [candidate, -candidate] {
-                let gap = gap_of_primitives(self.r, self.s, &n);
-                if best.is_none_or(|(most, _)| gap > most + tie) {
-                    best = Some((gap, n));
-                }
+            let [ahead, back] =
+                [candidate, -candidate].map(|n| (gap_of_primitives(self.r, self.s, &n), n));
+            // Flat sets have gaps of opposite signs: which side r is on shows in less than a tie.
+            let side = if back.0 > ahead.0 + rounding {
+                back
+            } else {
+                ahead
+            };
+            if best.is_none_or(|(most, _)| side.0 > most + tie) {
+                best = Some(side);
             }
         }
         best.filter(|(gap, _)| *gap >= -tolerance::TOUCH_DEPTH * self.precision.size)

@@ -34,16 +34,19 @@ pub struct SplinePiece {
 impl QueryContext {
     /// The same as [`QueryContext::motion`] on a Bezier curve, given by its control points, one configuration after another: at time
     /// t every coordinate is the mean that de Casteljau's construction makes. Coordinates on circles are not taken the shorter way
-    /// round. Those of quaternions must not change.
+    /// round. Those of quaternions must not change. A space without coordinates has one configuration, on which every curve rests.
     pub fn motion_on_curve(
         &mut self,
         cobject: &CObject,
         points: &[f64],
         options: &MotionOptions,
     ) -> Result<MotionAnswer> {
-        let count = points.len().checked_div(cobject.space().nq());
+        let nq = cobject.space().nq();
+        if nq == 0 {
+            return self.motion(cobject, &[], &[], options);
+        }
         // Before the points are read.
-        if let Some(degree) = count.and_then(|count| count.checked_sub(1))
+        if let Some(degree) = (points.len() / nq).checked_sub(1)
             && degree > MAX_DEGREE
         {
             return Err(Error::invalid(format!(
@@ -63,6 +66,9 @@ impl QueryContext {
         options: &MotionOptions,
     ) -> Result<MotionAnswer> {
         let space = cobject.space();
+        if space.nq() == 0 {
+            return self.motion(cobject, &[], &[], options);
+        }
         check_points(space, spline.points)?;
         let pieces = spline.pieces(space.nq())?;
         let world = &self.begin_motion(cobject, options)?;
@@ -120,7 +126,7 @@ impl QueryContext {
 /// Refuses control points that make no curve.
 fn check_points(space: &Space, points: &[f64]) -> Result<()> {
     let nq = space.nq();
-    if nq == 0 || points.is_empty() || !points.len().is_multiple_of(nq) {
+    if points.is_empty() || !points.len().is_multiple_of(nq) {
         return Err(Error::new(
             ErrorKind::WrongSize,
             format!(

@@ -31,14 +31,14 @@ pub(super) enum Keeps {
     In,
 }
 
-fn unstated_speeds(term: &Induced) -> Error {
-    Error::new(
+fn unstated_speeds(way: &Way, term: &Induced) -> Error {
+    way.line.without_speed(Error::new(
         ErrorKind::Unsupported,
         format!(
             "C-object {}: a custom joint that does not state its speeds moves on the way",
             term.leaf.serial
         ),
-    )
+    ))
 }
 
 /// Gathers the leaves of a set on a motion, and the pairs that the motion may bring near.
@@ -170,7 +170,7 @@ impl<'a, 'k> Gathering<'a, 'k> {
         }
         let farthest = self.farthest(&term[0], scene);
         if farthest.is_infinite() {
-            return Err(unstated_speeds(&term[0]));
+            return Err(unstated_speeds(self.way, &term[0]));
         }
         if farthest == 0.0 && self.is_plain {
             self.needs_start = true;
@@ -317,7 +317,7 @@ impl<'a, 'k> Gathering<'a, 'k> {
             [line.rate(scene, target), off_the_way.rate(scene, target)]
         };
         let pair = MovingPair::new(a, b, limit, leaf, &mut self.rates, speed);
-        let mut pair = pair.ok_or_else(|| unstated_speeds(term))?;
+        let mut pair = pair.ok_or_else(|| unstated_speeds(self.way, term))?;
         if let Some(start) = self.start {
             pair.followed_from = start.pair_followed_from(term, target);
         }

@@ -3,7 +3,7 @@
 
 use crate::cobject::{BodyPairs, CObject, Induced, PureSet, Set};
 use crate::environment::{Environment, SObject};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::pose::Vec3;
 use crate::query::{Configuration, Placement, Scene, SceneMemory, Target, World};
 use crate::robot::Velocity;
@@ -36,6 +36,12 @@ impl<'a> LinearMotion<'a> {
             Configuration::Coordinates(q),
             SceneMemory::default(),
         )
+    }
+
+    /// The error where no speed is known: that of a custom joint whose place is not known, if there is one, else the given one.
+    pub fn without_speed(&self, unstated: Error) -> Error {
+        let poses = self.cobject.space().link_poses(self.q);
+        poses.err().unwrap_or(unstated)
     }
 
     /// Whether every joint that moves, and that changes some distance, states its speeds.

@@ -140,13 +140,13 @@ impl MovingPart {
     fn new(way: &Way, places: &mut Places, set: PureSet, followed_from: f64) -> Result<Self> {
         let rate = rate(way, &set);
         if !rate.is_finite() {
-            return Err(Error::new(
+            return Err(way.line.without_speed(Error::new(
                 ErrorKind::Unsupported,
                 format!(
                     "of pure set {} no speed is known: a predicate that does not measure, or a custom joint without speeds",
                     set.leaf.serial
                 ),
-            ));
+            )));
         }
         Ok(Self {
             rounding: rounding(way, &set),

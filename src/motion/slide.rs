@@ -158,10 +158,10 @@ impl QueryContext {
             v: step,
         };
         if !motion.states_speeds() {
-            return Err(Error::new(
+            return Err(motion.without_speed(Error::new(
                 ErrorKind::Unsupported,
                 "a custom joint that the step moves does not state its speeds, so that no way can be proved free",
-            ));
+            )));
         }
         let mut request = SlideRequest {
             world,

@@ -240,9 +240,16 @@ impl Near<'_> {
         if lower > touching {
             return Ok(Some(0.0));
         }
+        // How far clearances may fall: what is apart stays so, on the side where it is.
+        let lowest = if lower > 0.0 {
+            0.0
+        } else {
+            -allowance.allowed()
+        };
         // A link that does not move towards a separating plane cannot come nearer, however far it slides.
-        let is_level = |plane: &Separation| {
-            plane.gap >= -allowance.allowed() && plane.rate <= LEVEL * allowance.distance
+        let is_level = |plane: &Separation| match lower > 0.0 {
+            true => plane.gap > plane.rate,
+            false => plane.gap >= lowest && plane.rate <= LEVEL * allowance.distance,
         };
         let nearer = plane.filter(is_level).map_or(rate, |plane| plane.rate);
         let share = if nearer > allowance.distance {
@@ -250,7 +257,7 @@ impl Near<'_> {
         } else {
             1.0
         };
-        if !self.keeps_off(context, obstacle, share)? {
+        if !self.keeps_off(context, obstacle, share, lowest)? {
             return Ok(None);
         }
         // What touches may go on touching, from where it is followed on alone it must be apart.
@@ -274,12 +281,15 @@ impl Near<'_> {
         })
     }
 
-    /// Whether, to first order, no contact of a touching start comes nearer up to a time.
+    /// Whether, to first order, no clearance falls below a lowest one up to a time. Where that is 0, and what is apart is so at the time,
+    /// it is in between to second order too: a clearance that bends upwards lies above its first order, one that bends downwards is
+    /// least at an end.
     fn keeps_off(
         &self,
         context: &mut QueryContext,
         obstacle: &impl Obstacle,
         time: f64,
+        lowest: f64,
     ) -> Result<bool> {
         let allowance = self.allowance;
         let request = WitnessRequest {
@@ -289,9 +299,8 @@ impl Near<'_> {
             ..WitnessRequest::within(allowance.distance / STEP_FRACTION, allowance.max_count)
         };
         let list = obstacle.witnesses(context, self.start, request)?;
-        let keeps_off = |a: &Approach| {
-            a.clearance + time * dot(a.gradient, self.motion.v) >= -allowance.allowed()
-        };
+        let keeps_off =
+            |a: &Approach| a.clearance + time * dot(a.gradient, self.motion.v) >= lowest;
         let is_known = !list.truncated && list.witnesses.iter().all(|w| w.contact_count > 0);
         Ok(is_known && list.approaches().iter().all(keeps_off))
     }

@@ -57,12 +57,12 @@ impl Placement {
         }
     }
 
-    /// Moves all objects, in one change. Where coordinates grow so large that the objects would part, they are made anew.
+    /// Moves all objects, in one change. Where they have to reach over one another by more or by less than before, they are made anew.
     pub fn move_to(&mut self, pose: &Pose, cells: &Cells, resolution: f64) -> Result<()> {
-        let parts = |tile: &Tile| {
-            overlap(pose, tile.cube, resolution) > overlap(&self.pose, tile.cube, resolution)
+        let is_changed = |tile: &Tile| {
+            overlap(pose, tile.cube, resolution) != overlap(&self.pose, tile.cube, resolution)
         };
-        if self.tiles.values().any(parts) {
+        if self.tiles.values().any(is_changed) {
             let before = std::mem::replace(&mut self.pose, *pose);
             let made = self.replace(cells, resolution, &[WHOLE]);
             if made.is_err() {

@@ -182,6 +182,7 @@ impl SceneReader<'_, '_> {
         let size = MeshSize {
             faces,
             indices: faces.saturating_mul(3),
+            squares: 0,
         };
         let taken = self.budget.take(size, false);
         taken.map_err(|e| self.words.fault(e.kind, e.message))?;

@@ -108,6 +108,7 @@ impl<'a> ShapeReader<'a> {
         let size = MeshSize {
             faces: 2 * points,
             indices: 6 * points,
+            squares: 0,
         };
         self.budget.take(size, false)
     }

@@ -279,3 +279,34 @@ fn bad_splines_are_refused_and_quaternions_do_not_move_on_curves() {
         assert_eq!(refused.unwrap_err().kind, kind, "{knots:?}");
     }
 }
+
+/// A space without coordinates has one configuration, and every curve rests there.
+#[test]
+fn curves_rest_where_there_are_no_coordinates() {
+    let cube = cuboid([1.0; 3]).body;
+    let resting = LinkDefinition {
+        body: Some(cube.clone()),
+        ..link(None, JointKind::Fixed, Vec3::x())
+    };
+    let space = space(vec![robot(3, vec![resting])]);
+    assert_eq!(space.nq(), 0);
+    let options = MotionOptions::default();
+    for (x, outcome) in [(2.0, MotionOutcome::Free), (0.5, MotionOutcome::Hit)] {
+        let at = Pose::from_translation(Vec3::new(x, 0.0, 0.0));
+        let cobject = against(&space, &environment(&[(&cube, at)]).0);
+        let mut context = QueryContext::new();
+        let spline = Spline {
+            degree: 1,
+            knots: &[0.0, 0.0, 1.0, 1.0],
+            points: &[],
+        };
+        let answers = [
+            context.motion(&cobject, &[], &[], &options),
+            context.motion_on_curve(&cobject, &[], &options),
+            context.motion_on_spline(&cobject, &spline, &options),
+        ];
+        for answer in answers {
+            assert_eq!(answer.unwrap().outcome, outcome);
+        }
+    }
+}

@@ -12,6 +12,7 @@ mod compound_hulls;
 mod curves;
 mod discs;
 mod ends_at_limits;
+mod failing_joints;
 mod forged;
 mod free_limits;
 mod grazes;

@@ -13,7 +13,7 @@ use cstk::query::{Configuration, QueryContext};
 use cstk::robot::{JointKind, LinkDefinition};
 
 use helpers::robots::{against, against_with, environment, link, robot, space};
-use helpers::shapes::{cuboid, mesh};
+use helpers::shapes::{cuboid, hull, mesh};
 
 const GAPS: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
 
@@ -291,4 +291,114 @@ fn a_start_inside_is_told_with_any_shell() {
         let found = slide_once(&cell, &[0.0], &[-0.1], &SlideOptions::with_shell(shell));
         assert_eq!(found.outcome, SlideOutcome::Inside, "shell {shell}");
     }
+}
+
+/// A link that moves along z, at 0 with its lowest point at z = 0.
+fn lifted(body: &Arc<Body>) -> LinkDefinition {
+    LinkDefinition {
+        body: Some(body.clone()),
+        ..link(None, JointKind::Prismatic, Vec3::z())
+    }
+}
+
+/// Surfaces have no inside, and a hair above and below them differ by less than what ties normals.
+#[test]
+fn what_is_apart_from_a_surface_does_not_pass_it() {
+    let corner = |x: f64, y: f64| Vec3::new(x, y, 0.0);
+    let square = |half: f64| {
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+            .map(|(x, y)| corner(half * x, half * y))
+    };
+    let triangles = [[0, 1, 2], [0, 2, 3]];
+    let plates = [
+        hull(&square(10.0)).body,
+        mesh(&square(10.0), &triangles).body,
+    ];
+    let robots = [
+        hull(&square(1.0)).body,
+        mesh(&square(1.0), &triangles).body,
+        hull(&[corner(-1.0, 0.0), corner(1.0, 0.5)]).body,
+        hull(&[corner(0.3, 0.2)]).body,
+    ];
+    let mut apart = 0;
+    for (plate, body) in plates
+        .iter()
+        .flat_map(|plate| robots.iter().map(move |body| (plate, body)))
+    {
+        let space = space(vec![robot(3, vec![lifted(body)])]);
+        let cobject = against(&space, &environment(&[(plate, Pose::identity())]).0);
+        for gap in [1e-13, 2e-13, 5e-13, 1e-12, 1e-11, 1e-10, 1e-9] {
+            for side in [-1.0, 1.0] {
+                let q = [side * gap];
+                if class(&cobject, &q) != Class::Outside {
+                    continue;
+                }
+                apart += 1;
+                let list = QueryContext::new()
+                    .gradients(&cobject, &q, 1e-3, 10)
+                    .unwrap();
+                assert!(!list.contacts.is_empty());
+                for contact in &list.contacts {
+                    assert!(
+                        (contact.normal.z - side).abs() < 1e-9,
+                        "{gap:e}: {contact:?}"
+                    );
+                }
+                for (desired, shell, length) in [
+                    (0.0, 1.0, 0.5),
+                    (0.0, 10.0, 1e-4),
+                    (1e-4, 1.0, 0.5),
+                    (1e-4, 10.0, 1e-6),
+                ] {
+                    let mut options = keeping_distance(desired);
+                    options.max_shell = shell;
+                    let taken = slide_once(&cobject, &q, &[-side * length], &options);
+                    assert!(
+                        taken.configuration[0] * side > 0.0,
+                        "{gap:e}, {side}: {taken:?}"
+                    );
+                }
+            }
+        }
+    }
+    assert!(apart > 80, "{apart}");
+}
+
+/// However thin beside the shell: what was proved apart before is not passed.
+#[test]
+fn what_is_apart_from_a_thin_plate_does_not_pass_it() {
+    let mut apart = 0;
+    for thickness in [1e-9, 1e-8, 5e-8, 1e-6] {
+        let plate = cuboid([6.0, 6.0, thickness]).body;
+        let body = cuboid([2.0, 2.0, 2e-8]).body;
+        let space = space(vec![robot(3, vec![lifted(&body)])]);
+        let below = Pose::from_translation(Vec3::new(0.0, 0.0, -0.5 * thickness));
+        let cobject = against(&space, &environment(&[(&plate, below)]).0);
+        for gap in [5e-14, 1e-12, 5e-12, 1e-11, 1e-10] {
+            let q = [1e-8 + gap];
+            if class(&cobject, &q) != Class::Outside {
+                continue;
+            }
+            apart += 1;
+            for (shell, length) in [
+                (10.0, 1e-6),
+                (10.0, 2.0 * thickness),
+                (1e3, 1e-5),
+                (0.1, 1e-6),
+            ] {
+                let mut options = SlideOptions::with_shell(shell);
+                let mut desired = options.desired_distance;
+                for _ in 0..2 {
+                    options.desired_distance = desired;
+                    let taken = slide_once(&cobject, &q, &[-length], &options);
+                    assert!(
+                        taken.configuration[0] > 0.0,
+                        "{thickness:e} {gap:e}: {taken:?}"
+                    );
+                    desired = 0.0;
+                }
+            }
+        }
+    }
+    assert!(apart > 10, "{apart}");
 }

@@ -312,6 +312,31 @@ fn no_rounding_of_places_opens_a_gap_between_tiles() {
     }
 }
 
+/// Tiles reach over their neighbours by what their places round to where they are, not by what they did where they were.
+#[test]
+fn an_octree_that_comes_back_from_afar_is_as_it_was() {
+    let world = Arc::new(Environment::default());
+    let mut octree = Octree::new(1.0).unwrap();
+    octree.set(&[Vec3::repeat(0.5)], true).unwrap();
+    octree.place(&world, &Pose::identity(), None).unwrap();
+    let mut ball = BodyBuilder::new(3).unwrap();
+    ball.add_sphere(&Vec3::zeros(), 1.0, 0).unwrap();
+    let ball = ball.build(&HierarchyOptions::default(), &mut |_| Ok(()));
+    let space = space(vec![free_body(&Arc::new(ball.unwrap()))]);
+    let cobject = against(&space, &world);
+    let mut q = vec![0.0; space.nq()];
+    (q[0], q[1], q[2]) = (3.0, 0.5, 0.5);
+    for far in [1e8, 1e10, 1e12, 1e14] {
+        let pose = Pose::from_translation(Vec3::new(far, 0.0, 0.0));
+        octree.move_to(&pose).unwrap();
+        octree.move_to(&Pose::identity()).unwrap();
+        let at = Configuration::Coordinates(&q);
+        let found = QueryContext::new().distance(&cobject, at, f64::INFINITY);
+        let found = found.unwrap().distance;
+        assert!((found - 1.0).abs() <= 1e-14, "{far:e}: {found}");
+    }
+}
+
 fn ids(world: &Environment) -> BTreeSet<u64> {
     world.snapshot().objects().map(|object| object.id).collect()
 }

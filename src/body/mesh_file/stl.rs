@@ -18,6 +18,7 @@ pub fn parse_stl(bytes: &[u8]) -> Result<Mesh> {
         let size = MeshSize {
             faces,
             indices: 3 * faces,
+            squares: 0,
         };
         MeshBudget::default().take(size, false)?;
         return Ok(binary_stl(&bytes[84..]));

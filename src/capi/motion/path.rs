@@ -19,7 +19,7 @@ use crate::motion::PathAnswer;
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_path {
-    /// count * nq doubles; NULL if there are none.
+    /// count * nq doubles; NULL if there are none, as in a space without coordinates, which has one configuration.
     pub points: *const f64,
     pub count: usize,
     pub nq: usize,
