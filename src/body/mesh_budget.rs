@@ -15,11 +15,13 @@ pub const MAX_REPEATED_FACES: u64 = 1 << 20;
 /// The most indices of such faces: four per face.
 pub const MAX_REPEATED_INDICES: u64 = 4 * MAX_REPEATED_FACES;
 
-/// The most that the squares of the corners of such faces may add up to. Splitting faces that are not convex takes as long: some 10 s.
-pub const MAX_REPEATED_SQUARES: u64 = 1 << 31;
-
-/// The most corners of one face. Splitting a non-convex face takes quadratic time: some 10 s for this many corners.
+/// The most corners of one face. Splitting a face that is not convex takes quadratic time: a second or two for this many corners.
 const MAX_FACE_CORNERS: u32 = 1 << 14;
+
+/// The most that the squares of the corners of all faces may add up to: 128 of the largest faces, which take some three minutes.
+pub const MAX_SQUARES: u64 = 1 << 35;
+/// The same of the faces of meshes that are instanced again: some ten seconds.
+pub const MAX_REPEATED_SQUARES: u64 = 1 << 31;
 
 /// The largest mesh file that is read, 1 GiB: ASCII STL takes some 128 bytes per face.
 pub const MAX_MESH_FILE_BYTES: u64 = 1 << 30;
@@ -85,7 +87,7 @@ impl MeshBudget {
         let max = MeshSize {
             faces: MAX_FACES,
             indices: MAX_INDICES,
-            squares: u64::MAX,
+            squares: MAX_SQUARES,
         };
         self.all.require(max, "")?;
         if is_repeated {

@@ -283,9 +283,9 @@ pub unsafe extern "C" fn cstk_octree_place(
     })
 }
 
-/// Moves an octree within its environment, in one change. Its objects keep their ids unless it gets so much farther from the
-/// world's origin, or nearer to it, that they must reach over their neighbours by more or by less. CSTK_ERROR_NOT_FOUND if it is in
-/// none.
+/// Moves an octree within its environment, in one change. Its objects keep their ids, but for those that get so much farther from
+/// the world's origin, or nearer to it, that they must reach over their neighbours by more or by less. CSTK_ERROR_NOT_FOUND if
+/// the octree is in none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_octree_move(
     octree: *mut cstk_octree,

@@ -230,8 +230,8 @@ pub unsafe extern "C" fn cstk_urdf_options_default(
 ///
 /// Limits, beyond which a file is CSTK_ERROR_UNSUPPORTED: 64 MiB for the URDF file, 1 GiB for a mesh file; 2^17 links; 2^23
 /// faces and 2^25 indices of faces, in one mesh file and in all bodies of the robot together, of which 2^20 faces and 2^22
-/// indices may come from repeated use of a mesh or a geometry, of faces the squares of whose corners add up to 2^31 at most;
-/// 2^14 corners of a face. In XML, 2^23 tags, 2^12 attributes of an element, 2^8 namespaces; in DAE, 2^20 nodes, transforms
+/// indices may come from repeated use of a mesh or a geometry; 2^14 corners of a face, and 2^35 for the squares of the corners
+/// of all faces added up, 2^31 of those repeated. In XML, 2^23 tags, 2^12 attributes of an element, 2^8 namespaces; in DAE, 2^20 nodes, transforms
 /// and instances, 64 levels. Only regular files are read.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_builder_load_urdf(

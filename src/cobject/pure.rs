@@ -88,6 +88,14 @@ impl fmt::Debug for PureShape {
 }
 
 impl PureShape {
+    /// The links whose places decide it, by number in the space.
+    pub fn links(&self) -> &[usize] {
+        match self {
+            Self::BeyondWorld { links } | Self::Floor { links, .. } => links,
+            _ => &[],
+        }
+    }
+
     /// The name of the shape in error messages.
     pub fn name(&self) -> &'static str {
         match self {

@@ -43,6 +43,7 @@ impl QueryContext {
     ) -> Result<MotionAnswer> {
         let nq = cobject.space().nq();
         if nq == 0 {
+            check_no_points(points)?;
             return self.motion(cobject, &[], &[], options);
         }
         // Before the points are read.
@@ -67,6 +68,8 @@ impl QueryContext {
     ) -> Result<MotionAnswer> {
         let space = cobject.space();
         if space.nq() == 0 {
+            check_no_points(spline.points)?;
+            spline.check((spline.knots.len()).saturating_sub(spline.degree + 1))?;
             return self.motion(cobject, &[], &[], options);
         }
         check_points(space, spline.points)?;
@@ -123,6 +126,17 @@ impl QueryContext {
     }
 }
 
+/// Of a space without coordinates, control points have no numbers.
+fn check_no_points(points: &[f64]) -> Result<()> {
+    match points.len() {
+        0 => Ok(()),
+        count => Err(Error::new(
+            ErrorKind::WrongSize,
+            format!("the control points have {count} entries, but the space has no coordinates"),
+        )),
+    }
+}
+
 /// Refuses control points that make no curve.
 fn check_points(space: &Space, points: &[f64]) -> Result<()> {
     let nq = space.nq();
@@ -146,8 +160,8 @@ fn check_points(space: &Space, points: &[f64]) -> Result<()> {
 impl Spline<'_> {
     /// The Bezier curves between its knots.
     pub fn pieces(&self, nq: usize) -> Result<Vec<SplinePiece>> {
-        self.check(nq)?;
         let count = self.points.len() / nq;
+        self.check(count)?;
         let spans = (self.degree..count).filter(|k| self.knots[*k] < self.knots[k + 1]);
         let pieces = spans.map(|k| {
             let [from, to] = [self.knots[k], self.knots[k + 1]];
@@ -180,8 +194,8 @@ impl Spline<'_> {
         points.split_off(degree * nq)
     }
 
-    fn check(&self, nq: usize) -> Result<()> {
-        let count = self.points.len() / nq;
+    /// Whether it is a spline with so many control points.
+    fn check(&self, count: usize) -> Result<()> {
         if !(1..=MAX_DEGREE).contains(&self.degree) {
             return Err(Error::invalid(format!(
                 "the degree {} is not between 1 and {MAX_DEGREE}",

@@ -1,11 +1,16 @@
-//! What touches at the start of a slide. There no bound over an interval parts a pair, so that the interval proof follows it from
-//! a later time on; up to there its contacts must not come nearer, to first order. Where a plane that nothing crosses separates
-//! the two for the whole motion, it need not follow them at all.
+//! What touches at the start of a slide, or is nearer than rounding. There no bound over an interval parts a pair, so that the interval
+//! proof follows it from a later time on. Up to there the contacts of what touches must not come nearer, to first order, and those of
+//! what is apart stay so, to second order. Where a plane that nothing crosses separates the two for the whole motion, it need not follow
+//! them at all.
+
+use std::cell::RefCell;
 
 use super::half_spaces::dot;
-use super::linear_motion::{LinearMotion, STEP_FRACTION};
+use super::linear_motion::{LinearMotion, STEP_FRACTION, extent};
+use super::pair_rates::PairRates;
 use super::set_tree::{LeafContent, SetTree};
 use super::slide_step::Approach;
+use super::way::Way;
 use crate::cobject::{Induced, PureSet, PureShape};
 use crate::error::Result;
 use crate::pair::PrimitiveScratch;
@@ -26,8 +31,8 @@ pub(super) struct TouchAllowance {
 /// along it.
 const LEVEL: f64 = 1e-9;
 
-/// Bodies touch up to this distance, relative to their size and to where they are: more than what the interval proof takes off a gap
-/// for rounding.
+/// Bodies touch up to this distance, relative to their size and to where they are, or up to what the interval proof takes off a gap for
+/// rounding, if that is more.
 const TOUCHING: f64 = 1e-11;
 
 impl TouchAllowance {
@@ -81,8 +86,35 @@ trait Obstacle {
         start: &Scene,
     ) -> Result<Option<Separation>>;
 
-    /// Up to which distance the two touch.
+    /// How far rounding may move the robot's links on the way, where they are placed.
+    fn rounding(&self, places: &Places) -> f64;
+
+    /// Up to which distance the two count as touching, whatever rounding does on this way.
     fn touching(&self) -> f64;
+
+    /// Bounds how far the one turns as the other sees it, in the whole motion.
+    fn turn(&self, motion: &LinearMotion) -> f64;
+}
+
+/// What rounding may do to the places of links on a motion.
+struct Places<'a> {
+    motion: &'a LinearMotion<'a>,
+    start: &'a Scene<'a>,
+    rates: RefCell<PairRates<'a>>,
+    /// See [`Way::rounding`].
+    of_coordinates: &'a [f64],
+}
+
+impl Places<'_> {
+    /// How far rounding may move what a link carries within a radius of its origin.
+    fn rounding(&self, link: usize, radius: f64) -> f64 {
+        let LinearMotion { cobject, q, .. } = *self.motion;
+        let mut rates = self.rates.borrow_mut();
+        let rounding = rates.rounding_of_link(link, self.start.poses());
+        let v = self.of_coordinates;
+        let of_coordinates = cobject.space().motion_bound_of_radius(link, radius, q, v);
+        rounding.of_places(radius, 1.0) + of_coordinates
+    }
 }
 
 /// A plane between a moving link and something at rest.
@@ -94,10 +126,10 @@ struct Separation {
 }
 
 impl Separation {
-    /// Whether the plane separates the two during the whole motion, by more than where they count as touching: the gap has no rounding of
-    /// where links are on the way.
-    fn lasts(&self, touching: f64) -> bool {
-        self.gap > touching && STEP_FRACTION * self.gap >= self.rate
+    /// Whether the plane separates the two during the whole motion, by more than rounding.
+    fn lasts(&self, rounding: f64) -> bool {
+        let gap = self.gap - rounding;
+        gap > 0.0 && STEP_FRACTION * gap >= self.rate
     }
 }
 
@@ -108,12 +140,11 @@ struct PairAtStart<'a> {
 }
 
 /// An obstacle near the start.
-struct Near<'a> {
-    motion: &'a LinearMotion<'a>,
-    start: &'a Scene<'a>,
+struct Near<'n, 'p> {
     /// Bounds how much the distance falls in the whole motion.
     rate: f64,
-    allowance: &'a TouchAllowance,
+    places: &'n Places<'p>,
+    allowance: &'n TouchAllowance,
 }
 
 impl QueryContext {
@@ -125,19 +156,26 @@ impl QueryContext {
         allowance: &TouchAllowance,
     ) -> Result<Option<StartContacts>> {
         let start = &motion.scene(motion.q)?;
+        let way = Way::straight(*motion);
+        let motions = way.link_motions();
+        let places = &Places {
+            motion,
+            start,
+            rates: RefCell::new(PairRates::new(&motions)),
+            of_coordinates: &way.rounding(),
+        };
         let mut found = StartContacts::default();
         for leaf in &SetTree::new(motion.cobject, false).leaves {
             let goes_on = match leaf.content {
                 LeafContent::Induced(group) => {
                     let mut terms = group.chunks(1);
                     terms.try_fold(true, |goes_on, term| {
-                        Ok(goes_on
-                            && self.add_near_pairs(motion, start, term, allowance, &mut found)?)
+                        Ok(goes_on && self.add_near_pairs(places, term, allowance, &mut found)?)
                     })?
                 }
                 LeafContent::Known(_) => true,
                 LeafContent::Pure(set) => {
-                    self.add_near_parts(motion, start, set, allowance, &mut found)?
+                    self.add_near_parts(places, set, allowance, &mut found)?
                 }
             };
             if !goes_on {
@@ -149,12 +187,12 @@ impl QueryContext {
 
     fn add_near_pairs(
         &mut self,
-        motion: &LinearMotion,
-        start: &Scene,
+        places: &Places,
         term: &Group,
         allowance: &TouchAllowance,
         found: &mut StartContacts,
     ) -> Result<bool> {
+        let &Places { motion, start, .. } = places;
         let checked = start.checked(term)?;
         let filter = CandidateFilter::within(allowance.distance);
         let meter = self.scratch.meter_mut();
@@ -166,9 +204,8 @@ impl QueryContext {
             // Searched alone, so its rank is 0: hits name their pair by rank.
             let target = Target { rank: 0, ..target };
             let near = Near {
-                motion,
-                start,
                 rate: motion.rate(start, &target),
+                places,
                 allowance,
             };
             let Some(time) = near.followed_from(self, &PairAtStart { term, target })? else {
@@ -183,20 +220,19 @@ impl QueryContext {
 
     fn add_near_parts(
         &mut self,
-        motion: &LinearMotion,
-        start: &Scene,
+        places: &Places,
         set: &PureSet,
         allowance: &TouchAllowance,
         found: &mut StartContacts,
     ) -> Result<bool> {
+        let motion = places.motion;
         let space = motion.cobject.space();
         let straight = || space.straight(motion.q, motion.v).collect();
         let parts = set.parts_on_way(space, straight);
         for (number, part) in parts.iter().enumerate() {
             let near = Near {
-                motion,
-                start,
                 rate: part.motion_bound(space, motion.q, motion.v),
+                places,
                 allowance,
             };
             let Some(time) = near.followed_from(self, part)? else {
@@ -210,7 +246,7 @@ impl QueryContext {
     }
 }
 
-impl Near<'_> {
+impl Near<'_, '_> {
     /// From when on the interval proof is to follow the obstacle; `None` where a contact comes nearer.
     fn followed_from(
         &self,
@@ -218,11 +254,11 @@ impl Near<'_> {
         obstacle: &impl Obstacle,
     ) -> Result<Option<f64>> {
         let &Self {
-            motion,
-            start,
             rate,
+            places,
             allowance,
         } = self;
+        let &Places { motion, start, .. } = places;
         // What does not move relative to the robot may be arbitrarily near.
         if rate == 0.0 {
             return Ok(Some(1.0));
@@ -232,37 +268,41 @@ impl Near<'_> {
             return Ok(Some(0.0));
         }
         let plane = obstacle.separation(context, motion, start)?;
-        let touching = obstacle.touching();
-        if plane.as_ref().is_some_and(|plane| plane.lasts(touching)) {
+        let rounding = obstacle.rounding(places);
+        if plane.as_ref().is_some_and(|plane| plane.lasts(rounding)) {
             let stays = lower <= 0.0 || self.is_apart_at(context, obstacle, 1.0)?;
             return Ok(stays.then_some(1.0));
         }
-        if lower > touching {
+        if lower > obstacle.touching().max(rounding) {
             return Ok(Some(0.0));
         }
-        // How far clearances may fall: what is apart stays so, on the side where it is.
-        let lowest = if lower > 0.0 {
-            0.0
-        } else {
-            -allowance.allowed()
+        let share = |moved: f64| match moved > allowance.distance {
+            true => allowance.distance / moved,
+            false => 1.0,
         };
+        if lower > 0.0 {
+            // By which it may bend is a product of how far it moves and turns: a quarter of the distance at most.
+            let bend = 2.0 * rate * obstacle.turn(motion);
+            let share = match bend > 0.25 * lower {
+                true => share(rate).min((0.25 * lower / bend).sqrt()),
+                false => share(rate),
+            };
+            let stays = share > 0.0
+                && self.keeps_off(context, obstacle, share, 0.5 * lower)?
+                && self.is_apart_at(context, obstacle, share)?;
+            return Ok(stays.then_some(share));
+        }
+        let lowest = -allowance.allowed();
         // A link that does not move towards a separating plane cannot come nearer, however far it slides.
-        let is_level = |plane: &Separation| match lower > 0.0 {
-            true => plane.gap > plane.rate,
-            false => plane.gap >= lowest && plane.rate <= LEVEL * allowance.distance,
-        };
+        let is_level =
+            |plane: &Separation| plane.gap >= lowest && plane.rate <= LEVEL * allowance.distance;
         let nearer = plane.filter(is_level).map_or(rate, |plane| plane.rate);
-        let share = if nearer > allowance.distance {
-            allowance.distance / nearer
-        } else {
-            1.0
-        };
+        let share = share(nearer);
         if !self.keeps_off(context, obstacle, share, lowest)? {
             return Ok(None);
         }
         // What touches may go on touching, from where it is followed on alone it must be apart.
-        let may_touch = lower <= 0.0 && share == 1.0;
-        let stays = may_touch || self.is_apart_at(context, obstacle, share)?;
+        let stays = share == 1.0 || self.is_apart_at(context, obstacle, share)?;
         Ok(stays.then_some(share))
     }
 
@@ -273,17 +313,15 @@ impl Near<'_> {
         obstacle: &impl Obstacle,
         time: f64,
     ) -> Result<bool> {
-        let LinearMotion { world, cobject, .. } = *self.motion;
-        let q = self.motion.at(time);
+        let LinearMotion { world, cobject, .. } = *self.places.motion;
+        let q = self.places.motion.at(time);
         let at = Configuration::Coordinates(&q);
         context.with_scene(cobject, world, at, |context, scene| {
             Ok(obstacle.lower(context, scene, self.allowance.distance)? > 0.0)
         })
     }
 
-    /// Whether, to first order, no clearance falls below a lowest one up to a time. Where that is 0, and what is apart is so at the time,
-    /// it is in between to second order too: a clearance that bends upwards lies above its first order, one that bends downwards is
-    /// least at an end.
+    /// Whether, to first order, no clearance falls below a lowest one up to a time.
     fn keeps_off(
         &self,
         context: &mut QueryContext,
@@ -298,9 +336,9 @@ impl Near<'_> {
             counts_doubt: true,
             ..WitnessRequest::within(allowance.distance / STEP_FRACTION, allowance.max_count)
         };
-        let list = obstacle.witnesses(context, self.start, request)?;
+        let list = obstacle.witnesses(context, self.places.start, request)?;
         let keeps_off =
-            |a: &Approach| a.clearance + time * dot(a.gradient, self.motion.v) >= lowest;
+            |a: &Approach| a.clearance + time * dot(a.gradient, self.places.motion.v) >= lowest;
         let is_known = !list.truncated && list.witnesses.iter().all(|w| w.contact_count > 0);
         Ok(is_known && list.approaches().iter().all(keeps_off))
     }
@@ -359,10 +397,23 @@ impl Obstacle for PairAtStart<'_> {
         }))
     }
 
+    fn rounding(&self, places: &Places) -> f64 {
+        let [a, b] = self.target.sides;
+        let (link, other) = self.target.links();
+        let of_link = |link: usize, side| places.rounding(link, extent(places.start, link, side));
+        of_link(link, a) + other.map_or(0.0, |other| of_link(other, b))
+    }
+
     fn touching(&self) -> f64 {
         let [(_, a), (_, b)] = self.target.sides;
         let size = self.target.pairing().precision.size;
         TOUCHING * (size + a.translation.norm() + b.translation.norm())
+    }
+
+    fn turn(&self, motion: &LinearMotion) -> f64 {
+        let (link, other) = self.target.links();
+        let space = motion.cobject.space();
+        space.turn_bound(link, other, motion.q, motion.v)
     }
 }
 
@@ -409,8 +460,26 @@ impl Obstacle for PureSet {
         }))
     }
 
-    /// Its lower bound has the rounding.
+    fn rounding(&self, places: &Places) -> f64 {
+        let of_link = |&link: &usize| {
+            let body = places.start.link(link);
+            places.rounding(
+                link,
+                body.map_or(0.0, |(body, _)| body.radius_from_origin()),
+            )
+        };
+        let links = self.shape.links().iter();
+        links.map(of_link).fold(0.0, f64::max)
+    }
+
     fn touching(&self) -> f64 {
         0.0
+    }
+
+    fn turn(&self, motion: &LinearMotion) -> f64 {
+        let space = motion.cobject.space();
+        let links = self.shape.links().iter();
+        let turns = links.map(|&link| space.turn_bound(link, None, motion.q, motion.v));
+        turns.fold(0.0, f64::max)
     }
 }

@@ -39,7 +39,7 @@ impl Placement {
             bodies: TileBodies::default(),
         };
         // Also of no tiles, so that an environment that refuses changes is refused at once.
-        placement.replace(cells, resolution, &[WHOLE])?;
+        placement.replace(cells, resolution, &[WHOLE], pose)?;
         Ok(placement)
     }
 
@@ -53,33 +53,19 @@ impl Placement {
         let cubes = outdated(&self.tiles, cells, changed);
         match cubes.is_empty() {
             true => Ok(()),
-            false => self.replace(cells, resolution, &cubes),
+            false => self.replace(cells, resolution, &cubes, &self.pose.clone()),
         }
     }
 
-    /// Moves all objects, in one change. Where they have to reach over one another by more or by less than before, they are made anew.
+    /// Moves all objects, in one change. Those that have to reach over their neighbours by more or by less than before are made anew.
     pub fn move_to(&mut self, pose: &Pose, cells: &Cells, resolution: f64) -> Result<()> {
-        let is_changed = |tile: &Tile| {
-            overlap(pose, tile.cube, resolution) != overlap(&self.pose, tile.cube, resolution)
-        };
-        if self.tiles.values().any(is_changed) {
-            let before = std::mem::replace(&mut self.pose, *pose);
-            let made = self.replace(cells, resolution, &[WHOLE]);
-            if made.is_err() {
-                self.pose = before;
-            }
-            return made;
-        }
-        let now = self.environment.snapshot();
         let tiles = self.tiles.values();
-        let present = tiles.filter(|tile| now.find(tile.id).is_some());
-        let moves = present.map(|tile| Change::Move {
-            id: tile.id,
-            pose: pose_of(pose, tile.cube, resolution),
+        let changed = tiles.filter(|tile| {
+            let by = |pose: &Pose| overlap(pose, tile.cube, resolution);
+            by(pose) != by(&self.pose)
         });
-        self.environment.apply(&moves.collect::<Vec<_>>())?;
-        self.pose = *pose;
-        Ok(())
+        let changed: Vec<Cube> = changed.map(|tile| tile.cube).collect();
+        self.replace(cells, resolution, &changed, pose)
     }
 
     /// Deletes all objects, in one change.
@@ -90,8 +76,14 @@ impl Placement {
         Ok(())
     }
 
-    /// Makes the tiles within cubes anew.
-    fn replace(&mut self, cells: &Cells, resolution: f64, cubes: &[Cube]) -> Result<()> {
+    /// Makes the tiles within cubes anew, and moves the others if the pose is another.
+    fn replace(
+        &mut self,
+        cells: &Cells,
+        resolution: f64,
+        cubes: &[Cube],
+        pose: &Pose,
+    ) -> Result<()> {
         let old: Vec<(u64, Tile)> = cubes
             .iter()
             .flat_map(|&cube| within(&self.tiles, cube))
@@ -103,14 +95,18 @@ impl Placement {
         let mut changes = self.deletions(old.iter().map(|(_, tile)| *tile));
         let deleted = changes.len();
         for &cube in &new {
-            let overlap = overlap(&self.pose, cube, resolution);
+            let overlap = overlap(pose, cube, resolution);
             let body = self.bodies.body(cells, cube, resolution, overlap)?;
             changes.push(Change::Add(Addition {
                 data: self.data.clone(),
-                ..Addition::new(body, pose_of(&self.pose, cube, resolution))
+                ..Addition::new(body, pose_of(pose, cube, resolution))
             }));
         }
+        if *pose != self.pose {
+            changes.extend(self.moves(&old, pose, resolution));
+        }
         let (ids, _) = self.environment.apply(&changes)?;
+        self.pose = *pose;
         for (place, _) in old {
             self.tiles.remove(&place);
         }
@@ -120,6 +116,19 @@ impl Placement {
         }
         self.bodies.prune();
         Ok(())
+    }
+
+    /// The moves of all tiles but some, which are in order of their places.
+    fn moves(&self, others: &[(u64, Tile)], pose: &Pose, resolution: f64) -> Vec<Change> {
+        let now = self.environment.snapshot();
+        let is_other = |place: &u64| others.binary_search_by_key(place, |(p, _)| *p).is_ok();
+        let tiles = self.tiles.iter().filter(|(place, _)| !is_other(place));
+        let present = tiles.filter(|(_, tile)| now.find(tile.id).is_some());
+        let moves = present.map(|(_, tile)| Change::Move {
+            id: tile.id,
+            pose: pose_of(pose, tile.cube, resolution),
+        });
+        moves.collect()
     }
 
     /// The deletions of those tiles' objects that are still there.

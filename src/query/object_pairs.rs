@@ -58,15 +58,14 @@ impl QueryContext {
         }
         let mut found = false;
         self.in_blocks(sets, threshold, SMALL_BLOCK, |context, sides, block| {
-            for pair in block.iter() {
-                let target = target(sides, pair);
+            for pair in block.drain(..) {
+                let target = target(sides, &pair);
                 if context.target_within(&target, threshold)? {
                     context.recent = Some(target.key);
                     found = true;
                     return Ok(f64::NEG_INFINITY);
                 }
             }
-            block.clear();
             Ok(threshold)
         })?;
         Ok(found)

@@ -72,6 +72,13 @@ impl Robot {
         bound
     }
 
+    /// Bounds how far a link turns, in radians, relative to a link that carries it, or to the world.
+    pub fn turn_bound_in(&self, frame: Option<usize>, link: usize, q: &[f64], v: &[f64]) -> f64 {
+        let mut bound = 0.0;
+        self.visit_motions(frame, link, 0.0, q, v, |joint| bound += joint.turn);
+        bound
+    }
+
     /// The same along a unit direction n of the world; `state` holds the link poses at the start. For a base that drives on a
     /// floor, the bound along the floor's normal is 0.
     ///

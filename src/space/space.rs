@@ -369,6 +369,26 @@ impl Space {
         sides.map(in_shared).iter().sum()
     }
 
+    /// Bounds how far a link turns, in radians, as the world or another link sees it.
+    pub fn turn_bound(&self, link: usize, from: Option<usize>, q: &[f64], v: &[f64]) -> f64 {
+        let (own, others) = (self.robot_of(link), from.map(|from| self.robot_of(from)));
+        let (robot, offset) = (&self.robots[own], self.offsets[own]);
+        let shared = match from {
+            Some(from) if others == Some(own) => {
+                robot.common_carrier([link, from].map(|link| link - offset.link))
+            }
+            _ => None,
+        };
+        let of = |link: usize| {
+            let at = self.robot_of(link);
+            let (robot, offset) = (&self.robots[at], self.offsets[at]);
+            let v = &v[offset.velocity..offset.velocity + robot.nv()];
+            let q = &q[self.coordinates_of(at)];
+            robot.turn_bound_in(shared, link - offset.link, q, v)
+        };
+        of(link) + from.map_or(0.0, of)
+    }
+
     /// All links while the space goes from q with constant velocity v for a unit of time.
     pub fn link_motions(&self, q: &[f64], v: &[f64]) -> LinkMotions {
         let mut motions = LinkMotions::default();

@@ -402,3 +402,45 @@ fn what_is_apart_from_a_thin_plate_does_not_pass_it() {
     }
     assert!(apart > 10, "{apart}");
 }
+
+/// A tip that swings along a plate a hair above it dips, and comes to its edge: the end of the way is apart, but not all of it.
+#[test]
+fn a_tip_that_swings_past_an_edge_does_not_cut_it() {
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let mut points = vec![Vec3::z()];
+    points.extend(corners.map(|(x, y)| Vec3::new(x, y, 2.0)));
+    let link = LinkDefinition {
+        body: Some(hull(&points).body),
+        ..link(None, JointKind::Revolute, Vec3::y())
+    };
+    let space = space(vec![robot(3, vec![link])]);
+    let mut moved = 0;
+    for (edge, gap) in [(3.5e-5, 5e-12), (3e-5, 1e-13), (5e-6, 1e-11), (1.0, 5e-12)] {
+        let plate = cuboid([2.0 + edge, 2.0, 0.1]).body;
+        let middle = Vec3::new(0.5 * edge - 1.0, 0.0, 0.95 - gap);
+        let at = Pose::from_translation(middle);
+        let cobject = against(&space, &environment(&[(&plate, at)]).0);
+        assert_eq!(class(&cobject, &[0.0]), Class::Outside);
+        for (length, desired) in [
+            (4e-5, 0.0),
+            (4e-5, 1e-6),
+            (1e-6, 0.0),
+            (1e-3, 0.0),
+            (-1e-3, 0.0),
+        ] {
+            let mut options = keeping_distance(desired);
+            options.max_shell = 1.0;
+            let taken = slide_once(&cobject, &[0.0], &[length], &options);
+            moved += usize::from(taken.outcome == SlideOutcome::Moved);
+            for i in 0..=1000 {
+                let q = [taken.configuration[0] * f64::from(i) / 1000.0];
+                assert_eq!(
+                    class(&cobject, &q),
+                    Class::Outside,
+                    "{edge} {gap:e} {length}: {taken:?}"
+                );
+            }
+        }
+    }
+    println!("{moved} moved");
+}
