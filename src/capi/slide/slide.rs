@@ -119,7 +119,8 @@ pub unsafe extern "C" fn cstk_slide_options_default(
 /// goes all of it, where cstk_motion from q to `reached` would go the shorter way. Pairs that no joint of
 /// the step moves relative to each other may touch. For a pair that touches at q and moves, the gradients of its contacts are
 /// trusted for the first 1e-4 of max_shell (or of the radius of the smallest body that a link carries); from there on it must be apart, unless the
-/// whole motion is shorter, or a plane separates the two bodies and the motion goes along it. Of two bodies with more than
+/// whole motion is shorter, or a plane separates the two bodies and the motion goes along it. So it is for a pair that is apart at q by
+/// no more than rounding (some 1e-11 of its size and place), but its contacts stay apart, to second order. Of two bodies with more than
 /// 64 primitive pairs only the nearest constrain a step: at most 8, no more than 1 % of the shell farther apart than the
 /// nearest.
 ///
