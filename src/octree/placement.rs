@@ -51,9 +51,10 @@ impl Placement {
     /// Follows changes of some cubes' cells, in one change of the environment.
     pub fn follow(&mut self, cells: &Cells, resolution: f64, changed: &[Cube]) -> Result<()> {
         let cubes = outdated(&self.tiles, cells, changed);
+        let pose = self.pose;
         match cubes.is_empty() {
             true => Ok(()),
-            false => self.replace(cells, resolution, &cubes, &self.pose.clone()),
+            false => self.replace(cells, resolution, &cubes, &pose),
         }
     }
 

@@ -2,6 +2,7 @@
 
 mod limits;
 mod link_bodies;
+mod motion_bounds;
 mod rigid_step;
 mod sampling;
 #[allow(clippy::module_inception)]

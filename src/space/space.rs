@@ -9,7 +9,7 @@ use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::{Pose, Vec3};
 use crate::robot::{
-    Block, Column, Coordinate, CoordinateCourses, Link, LinkMotions, Robot, RobotState, Velocity,
+    Block, Column, Coordinate, CoordinateCourses, Link, LinkMotions, Robot, RobotState,
     check_configuration,
 };
 
@@ -29,7 +29,7 @@ pub struct Offset {
 #[derive(Debug)]
 pub struct Space {
     serial: u64,
-    robots: Vec<Arc<Robot>>,
+    pub(super) robots: Vec<Arc<Robot>>,
     offsets: Vec<Offset>,
     links: usize,
     bodies: LinkBodies,
@@ -309,86 +309,6 @@ impl Space {
         })
     }
 
-    /// Bounds how far any point of the link's body moves, in the world, while the space goes from q with constant velocity
-    /// v for a unit of time. Infinite where a moving custom joint does not state its speeds.
-    pub fn motion_bound(&self, link: usize, q: &[f64], v: &[f64]) -> f64 {
-        let robot = self.robot_of(link);
-        let offset = self.offsets[robot];
-        let v = &v[offset.velocity..offset.velocity + self.robots[robot].nv()];
-        self.robots[robot].motion_bound(link - offset.link, &q[self.coordinates_of(robot)], v)
-    }
-
-    /// The same for points fixed to the link within `radius` of its origin.
-    pub fn motion_bound_of_radius(&self, link: usize, radius: f64, q: &[f64], v: &[f64]) -> f64 {
-        let robot = self.robot_of(link);
-        let offset = self.offsets[robot];
-        let v = &v[offset.velocity..offset.velocity + self.robots[robot].nv()];
-        let q = &q[self.coordinates_of(robot)];
-        self.robots[robot].motion_bound_of_radius(link - offset.link, radius, q, v)
-    }
-
-    /// The same along a unit direction of the world; see [`Robot::directed_motion_bound`].
-    pub fn directed_motion_bound(
-        &self,
-        link: usize,
-        radius: f64,
-        direction: &Vec3,
-        state: RobotState,
-        velocity: Velocity,
-    ) -> f64 {
-        let robot = self.robot_of(link);
-        let offset = self.offsets[robot];
-        let own_velocity = velocity.of(offset.velocity..offset.velocity + self.robots[robot].nv());
-        let own = RobotState {
-            q: &state.q[self.coordinates_of(robot)],
-            poses: &state.poses[offset.link..],
-        };
-        self.robots[robot].directed_motion_bound(
-            link - offset.link,
-            radius,
-            direction,
-            own,
-            own_velocity,
-        )
-    }
-
-    /// Bounds the change of the distance between point sets fixed to two links, each within its extent of its link's
-    /// origin. 0 for links that no joint moves relative to each other.
-    pub fn relative_motion_bound(&self, sides: [(usize, f64); 2], q: &[f64], v: &[f64]) -> f64 {
-        let [a, b] = sides.map(|(link, _)| self.robot_of(link));
-        if a != b {
-            let in_world = |(link, extent)| self.motion_bound_of_radius(link, extent, q, v);
-            return sides.map(in_world).iter().sum();
-        }
-        let (robot, offset) = (&self.robots[a], self.offsets[a]);
-        let v = &v[offset.velocity..offset.velocity + robot.nv()];
-        let q = &q[self.coordinates_of(a)];
-        let sides = sides.map(|(link, extent)| (link - offset.link, extent));
-        let shared = robot.common_carrier(sides.map(|(link, _)| link));
-        let in_shared = |(link, extent)| robot.motion_bound_in(shared, link, extent, q, v);
-        sides.map(in_shared).iter().sum()
-    }
-
-    /// Bounds how far a link turns, in radians, as the world or another link sees it.
-    pub fn turn_bound(&self, link: usize, from: Option<usize>, q: &[f64], v: &[f64]) -> f64 {
-        let (own, others) = (self.robot_of(link), from.map(|from| self.robot_of(from)));
-        let (robot, offset) = (&self.robots[own], self.offsets[own]);
-        let shared = match from {
-            Some(from) if others == Some(own) => {
-                robot.common_carrier([link, from].map(|link| link - offset.link))
-            }
-            _ => None,
-        };
-        let of = |link: usize| {
-            let at = self.robot_of(link);
-            let (robot, offset) = (&self.robots[at], self.offsets[at]);
-            let v = &v[offset.velocity..offset.velocity + robot.nv()];
-            let q = &q[self.coordinates_of(at)];
-            robot.turn_bound_in(shared, link - offset.link, q, v)
-        };
-        of(link) + from.map_or(0.0, of)
-    }
-
     /// All links while the space goes from q with constant velocity v for a unit of time.
     pub fn link_motions(&self, q: &[f64], v: &[f64]) -> LinkMotions {
         let mut motions = LinkMotions::default();
@@ -466,7 +386,7 @@ impl Space {
         self.offsets.partition_point(|offset| offset.link <= link) - 1
     }
 
-    fn coordinates_of(&self, robot: usize) -> std::ops::Range<usize> {
+    pub(super) fn coordinates_of(&self, robot: usize) -> std::ops::Range<usize> {
         let first = self.offsets[robot].coordinate;
         first..first + self.robots[robot].nq()
     }
