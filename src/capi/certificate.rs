@@ -23,12 +23,10 @@ use std::sync::Arc;
 use super::boundary::{Failure, guard};
 use super::handle;
 use super::handle::Noun;
-use super::input::{Output, OutputSlice, options_or_default, path, slice};
-use super::query::{cstk_query, with_query};
+use super::input::{Output, OutputSlice, path, slice};
+use super::query::cstk_query;
 use crate::capi::cobject::cobject::cstk_cobject;
-use crate::capi::motion::motion::{
-    cstk_motion_options, cstk_motion_result, optional_configuration,
-};
+use crate::capi::motion::motion::{ask_motion, cstk_motion_options, cstk_motion_result};
 use crate::capi::status::status::cstk_status;
 use crate::certificate::{Certificate, Entry};
 use crate::cobject::CObject;
@@ -111,29 +109,18 @@ pub unsafe extern "C" fn cstk_motion_certificate(
     certificate: *mut *mut cstk_certificate,
 ) -> cstk_status {
     guard(|| {
-        with_query(query, |state| {
-            let cobject = handle::share::<CObject>(cobject, "cobject")?;
-            let out = Output::checked(out, "out")?;
+        ask_motion(query, cobject, nq, options, reached, out, |asked| {
             let certificate = Output::checked(certificate, "certificate")?;
-            // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
-            let (q0, q1, given) = unsafe {
-                (
-                    slice(q0, nq, "q0")?,
-                    slice(q1, nq, "q1")?,
-                    options_or_default(options, "options")?,
-                )
-            };
-            let reached = optional_configuration(reached, nq, "reached")?;
-            let context = &mut state.context;
-            let (answer, found) = context.motion_certificate(&cobject, q0, q1, &given.into())?;
-            if let Some(reached) = reached {
-                reached.write(&answer.configuration);
-            }
-            out.write((&answer).into());
+            // SAFETY: checked for NULL; the caller states the lengths.
+            let (q0, q1) = unsafe { (slice(q0, nq, "q0")?, slice(q1, nq, "q1")?) };
+            let context = asked.context;
+            let (answer, found) =
+                context.motion_certificate(asked.cobject, q0, q1, &asked.options)?;
             certificate.write(found.map_or(std::ptr::null_mut(), |found| {
                 handle::create(Arc::new(found))
             }));
-            Ok(())
+            let result = (&answer).into();
+            Ok((answer.configuration, result))
         })
     })
 }

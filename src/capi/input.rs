@@ -6,6 +6,7 @@ use std::ops::Deref;
 
 use super::boundary::Failure;
 use crate::capi::status::status::cstk_status;
+use crate::error::{Error, ErrorKind};
 use crate::pose::{Pose, Vec3};
 use crate::room::room_for;
 
@@ -58,6 +59,22 @@ pub unsafe fn slice<'a, T>(
     require_addressable::<T>(count, argument)?;
     // SAFETY: not null, aligned, and the caller states that it holds `count` items.
     Ok(unsafe { std::slice::from_raw_parts(items, count) })
+}
+
+/// The same of a list that may be left out, by NULL and a count of 0.
+///
+/// # Safety
+/// As for [`slice`].
+pub unsafe fn optional_slice<'a, T>(
+    items: *const T,
+    count: usize,
+    argument: &str,
+) -> Result<Option<&'a [T]>, Failure> {
+    if items.is_null() && count == 0 {
+        return Ok(None);
+    }
+    // SAFETY: as the caller states.
+    unsafe { slice(items, count, argument) }.map(Some)
 }
 
 /// Refuses more items than memory has addresses for. Room for an answer may be more: it is not all written to.
@@ -178,6 +195,15 @@ unsafe fn c_string<'a>(string: *const c_char, argument: &str) -> Result<&'a CStr
     Ok(unsafe { CStr::from_ptr(string) })
 }
 
+/// Refuses a number of entries that is not the space's.
+pub fn require_width(given: usize, expected: usize, name: &str, what: &str) -> Result<(), Failure> {
+    if given == expected {
+        return Ok(());
+    }
+    let message = format!("{name} is {given}, but the space has {expected} {what}");
+    Err(Error::new(ErrorKind::WrongSize, message).into())
+}
+
 /// The destination of a result, checked before the call's work and written last.
 pub struct Output<T>(*mut T);
 
@@ -237,6 +263,20 @@ impl<T: Copy> OutputSlice<T> {
         Ok(Self { items, count })
     }
 
+    /// NULL is allowed: then nothing is written.
+    pub fn optional(
+        items: *mut T,
+        count: usize,
+        argument: &str,
+    ) -> Result<OptionalOutputSlice<T>, Failure> {
+        if items.is_null() {
+            return Ok(OptionalOutputSlice(None));
+        }
+        Ok(OptionalOutputSlice(Some(Self::checked(
+            items, count, argument,
+        )?)))
+    }
+
     /// Writes as many values as there is room for.
     pub fn write(self, values: &[T]) {
         let count = values.len().min(self.count);
@@ -251,6 +291,17 @@ impl<T: Copy> OutputSlice<T> {
         for i in 0..self.count {
             // SAFETY: checked at construction; the caller states that `count` items are writable.
             unsafe { self.items.add(i).write(value) }
+        }
+    }
+}
+
+/// The destination of results that the caller may leave out.
+pub struct OptionalOutputSlice<T>(Option<OutputSlice<T>>);
+
+impl<T: Copy> OptionalOutputSlice<T> {
+    pub fn write(self, values: &[T]) {
+        if let Some(out) = self.0 {
+            out.write(values);
         }
     }
 }

@@ -16,7 +16,7 @@
 use super::boundary::guard;
 use super::handle;
 use super::input::{
-    OptionsStruct, Output, OutputSlice, null, options_or_default, slice, write_defaults,
+    OptionsStruct, Output, OutputSlice, optional_slice, options_or_default, slice, write_defaults,
 };
 use super::query::{cstk_query, with_query};
 use crate::capi::at_configuration::answers::cstk_distance_result;
@@ -263,15 +263,8 @@ pub unsafe extern "C" fn cstk_region_grow(
             // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
             let (q, given) =
                 unsafe { (slice(q, nq, "q")?, options_or_default(options, "options")?) };
-            if weights.is_null() && nv > 0 {
-                return Err(null("weights"));
-            }
-            let weights = if weights.is_null() {
-                None
-            } else {
-                // SAFETY: not NULL; the caller states the length.
-                Some(unsafe { slice(weights, nv, "weights")? })
-            };
+            // SAFETY: checked for NULL; the caller states the length.
+            let weights = unsafe { optional_slice(weights, nv, "weights")? };
             let low = OutputSlice::checked(low, nq, "low")?;
             let high = OutputSlice::checked(high, nq, "high")?;
             let places = OutputSlice::checked(sides, side_count, "sides")?;

@@ -247,7 +247,7 @@ impl CObject {
         match self.leaf_set()? {
             Set::Union { induced, .. } => match &induced[0].pairs {
                 BodyPairs::Links { pairs, .. } => Some((&induced[0], pairs)),
-                BodyPairs::Objects { .. } => None,
+                BodyPairs::Objects(_) => None,
             },
             _ => None,
         }

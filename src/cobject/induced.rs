@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 use super::{ClearPairs, Exceptions, Leaf, LeftOut, LinkRows};
-use crate::environment::Environment;
+use crate::environment::{Environment, SObject};
 use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::index_set::IndexSet;
 use crate::space::Space;
@@ -31,18 +31,8 @@ pub enum SObjects {
 /// The body pairs of an induced set.
 #[derive(Clone, Debug)]
 pub enum BodyPairs {
-    /// Links of the space and the objects attached to them, against s-objects. A link without a body contributes only its
-    /// attached objects.
-    Objects {
-        /// The links on the r-side, by number in the space; none twice.
-        links: Vec<usize>,
-        /// The bodies of these, by their numbers.
-        bodies: IndexSet,
-        /// The s-side.
-        objects: SObjects,
-        /// Pairs that are left out.
-        exceptions: Exceptions,
-    },
+    /// Links against s-objects.
+    Objects(LinksAndObjects),
     /// Links against links; the second of a pair is the nominal s-object.
     Links {
         /// By number in the space; no pair twice. All have bodies.
@@ -52,6 +42,20 @@ pub enum BodyPairs {
         /// Where some of them are proved apart.
         clear: Option<Arc<ClearPairs>>,
     },
+}
+
+/// Links of the space and the objects attached to them, against s-objects. A link without a body contributes only its
+/// attached objects.
+#[derive(Clone, Debug)]
+pub struct LinksAndObjects {
+    /// The links on the r-side, by number in the space; none twice.
+    pub links: Vec<usize>,
+    /// The bodies of these, by their numbers.
+    pub bodies: IndexSet,
+    /// The s-side.
+    pub objects: SObjects,
+    /// Pairs that are left out.
+    pub exceptions: Exceptions,
 }
 
 /// The set of configurations at which some pair of bodies meets.
@@ -67,6 +71,26 @@ pub struct Induced {
     pub options: InducedOptions,
     /// The shell that slides use for this set; `None` for that of their options.
     pub shell: Option<f64>,
+}
+
+impl LinksAndObjects {
+    /// Whether an object makes a pair with the body of one of the links, or with an object attached to it, by its id, or 0.
+    pub fn admits(&self, link: usize, attached: u64, object: &SObject) -> bool {
+        if self.exceptions.have(link, attached, object) {
+            return false;
+        }
+        let Some(attachment) = &object.attachment else {
+            return true;
+        };
+        // An attached object is not tested against the link that holds it, nor against its touch links. Of two attached
+        // objects, the one with the lower id is the r-side.
+        let touches =
+            attachment.link == link || (attached == 0 && attachment.touch_links.contains(&link));
+        let is_mirrored = attached > object.id
+            && self.objects.contains(attached)
+            && self.links.contains(&attachment.link);
+        !touches && !is_mirrored
+    }
 }
 
 impl SObjects {
@@ -118,12 +142,12 @@ impl BodyPairs {
         for number in links.iter().filter_map(|&link| space.bodies().number(link)) {
             bodies.insert(number);
         }
-        Ok(Self::Objects {
+        Ok(Self::Objects(LinksAndObjects {
             links,
             bodies,
             objects,
             exceptions,
-        })
+        }))
     }
 
     /// Links against links; a pair given twice counts once.
@@ -157,14 +181,14 @@ impl BodyPairs {
     pub fn clear(&self) -> Option<&ClearPairs> {
         match self {
             Self::Links { clear, .. } => clear.as_deref(),
-            Self::Objects { .. } => None,
+            Self::Objects(_) => None,
         }
     }
 
     /// The environment of the s-objects; `None` for links against links.
     pub fn environment(&self) -> Option<&Arc<Environment>> {
         match self {
-            Self::Objects { objects, .. } => Some(objects.environment()),
+            Self::Objects(pairs) => Some(pairs.objects.environment()),
             Self::Links { .. } => None,
         }
     }

@@ -28,7 +28,7 @@ pub use clear_cells::{CellAxis, ClearCells, MAX_CELL_AXES};
 pub use clear_pairs::ClearPairs;
 pub use cobject::CObject;
 pub use exceptions::{AllowedPair, Exceptions, LeftOut};
-pub use induced::{BodyPairs, Induced, InducedOptions, SObjects};
+pub use induced::{BodyPairs, Induced, InducedOptions, LinksAndObjects, SObjects};
 pub use known::{Around, ConvexSets, KnownClass};
 pub use leaf::Leaf;
 pub use link_rows::{LinkRow, LinkRows};

@@ -102,6 +102,23 @@ fn build_of_shapes(
     })
 }
 
+/// Builds the wrapper tree over grouped primitives, and packs it.
+pub(super) fn wrapped_anew(
+    primitives: &Primitives,
+    groups: Groups,
+    options: &HierarchyOptions,
+    progress: &mut Progress,
+) -> Result<(Wrappers, PackedTree)> {
+    let points_of = |primitive: u32| {
+        let primitive = primitives.get(primitive as usize);
+        (primitive.bounding_points().collect(), 0.0)
+    };
+    let tree = WrapperTree::build(groups, points_of, options, &mut progress.part(0.0, 0.8))?;
+    let mut rest = progress.part(0.8, 1.0);
+    let packed = pack_wrappers(primitives, &tree, options.thread_count(), &mut rest)?;
+    Ok((Wrappers::Eager(Box::new(tree)), packed))
+}
+
 /// Builds the wrapper tree over parts; its leaves name the primitives.
 fn wrap_parts(
     shapes: &[Convex],

@@ -7,14 +7,14 @@ use std::time::Instant;
 use smallvec::SmallVec;
 
 use super::ball::Ball;
-use super::build::{BuildTimes, Hierarchy, build_hierarchy};
+use super::build::{BuildTimes, Hierarchy, build_hierarchy, wrapped_anew};
 use super::options::{HierarchyOptions, WrapperKind};
 use super::parallel::Progress;
 use super::subset_tree::{Node, SubsetTree};
 use crate::error::Result;
 use crate::hierarchy::grouping::{Groups, convex_pieces, group, parts};
-use crate::hierarchy::packed::{PackedPart, PackedTree, TopLeaf, pack_parts, pack_wrappers};
-use crate::hierarchy::wrapper::{WrapperTree, Wrappers};
+use crate::hierarchy::packed::{PackedPart, PackedTree, TopLeaf, pack_parts};
+use crate::hierarchy::wrapper::Wrappers;
 use crate::pose::{Pose, Vec3};
 use crate::primitive::{Convex, Primitives, SharedList};
 
@@ -68,14 +68,7 @@ pub fn compose_hierarchy(
         let packed = pack(primitives, &top, single, parts, &mut rest)?;
         (Wrappers::of_groups(groups, options), packed)
     } else {
-        let points_of = |primitive: u32| {
-            let primitive = primitives.get(primitive as usize);
-            (primitive.bounding_points().collect(), 0.0)
-        };
-        let tree = WrapperTree::build(groups, points_of, options, &mut rest.part(0.0, 0.8))?;
-        let threads = options.thread_count();
-        let packed = pack_wrappers(primitives, &tree, threads, &mut rest.part(0.8, 1.0))?;
-        (Wrappers::Eager(Box::new(tree)), packed)
+        wrapped_anew(primitives, groups, options, &mut rest)?
     };
     progress.at(1.0)?;
     let times = BuildTimes {

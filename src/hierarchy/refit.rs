@@ -4,13 +4,13 @@ use std::sync::OnceLock;
 use std::time::Instant;
 
 use super::ball::Ball;
-use super::build::{BuildTimes, Hierarchy};
+use super::build::{BuildTimes, Hierarchy, wrapped_anew};
 use super::options::HierarchyOptions;
 use super::parallel::Progress;
 use crate::error::Result;
 use crate::hierarchy::grouping::Groups;
-use crate::hierarchy::packed::{PackedTree, pack_wrappers, refit};
-use crate::hierarchy::wrapper::{WrapperTree, Wrappers};
+use crate::hierarchy::packed::{PackedTree, refit};
+use crate::hierarchy::wrapper::Wrappers;
 use crate::primitive::Primitives;
 
 /// The hierarchy over moved primitives with the tree, of `depth` levels, of another; `ball` bounds them. Wrappers that are
@@ -34,15 +34,9 @@ pub fn refit_hierarchy(
                 subsets: tree.subsets().clone(),
                 pieces: tree.pieces().to_vec(),
             };
-            let points_of = |primitive: u32| {
-                let primitive = primitives.get(primitive as usize);
-                (primitive.bounding_points().collect(), 0.0)
-            };
             let mut ignored = |_| Ok(());
             let mut progress = Progress::new(&mut ignored);
-            let tree = WrapperTree::build(groups, points_of, &options, &mut progress)?;
-            let packed = pack_wrappers(primitives, &tree, 1, &mut progress)?;
-            (Wrappers::Eager(Box::new(tree)), packed)
+            wrapped_anew(primitives, groups, &options, &mut progress)?
         }
         Wrappers::OnDemand {
             groups, options, ..

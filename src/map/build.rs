@@ -254,11 +254,10 @@ impl Map {
             }
             MapKind::Classes | MapKind::Cells => Cells::Bytes(zeros(grid.cell_count)?),
         };
-        if options.max_boxes == 0 {
-            return Err(Error::invalid(
-                "max_boxes is 0: not even one box is looked at",
-            ));
+        RegionOptions {
+            max_boxes: options.max_boxes,
         }
+        .check()?;
         let builder = Builder {
             grid,
             part: Block::part(grid),

@@ -16,7 +16,7 @@ use super::set_tree::{LeafContent, SetLeaf, SetTree};
 use super::span::Span;
 use super::start_contacts::StartContacts;
 use super::way::{Way, WayKind};
-use crate::cobject::{BodyPairs, ClearPairs, Induced, PureSet, PureShape};
+use crate::cobject::{BodyPairs, ClearPairs, Induced, LinksAndObjects, PureSet, PureShape};
 use crate::error::{Error, ErrorKind, Result};
 use crate::query::{CandidateFilter, Group, ListOrder, Placement, QueryContext, Scene, Target};
 use crate::robot::LinkMotions;
@@ -100,7 +100,7 @@ impl<'a, 'k> Gathering<'a, 'k> {
         let complement = leaf.complement;
         self.complement = complement;
         let moving = match leaf.content {
-            LeafContent::Pure(set) => self.pure(set, complement, scene)?,
+            LeafContent::Pure(set) => self.pure(set, scene)?,
             LeafContent::Known(sets) => MovingLeaf::Known {
                 sets: sets.clone(),
                 complement,
@@ -109,7 +109,7 @@ impl<'a, 'k> Gathering<'a, 'k> {
             LeafContent::Induced(_) if complement && self.threshold > 0.0 => MovingLeaf::Everything,
             LeafContent::Induced(group) => {
                 for term in 0..group.len() {
-                    self.add_pairs(&group[term..=term], complement, scene, context)?;
+                    self.add_pairs(&group[term..=term], scene, context)?;
                 }
                 MovingLeaf::Pairs { complement }
             }
@@ -118,8 +118,8 @@ impl<'a, 'k> Gathering<'a, 'k> {
         Ok(())
     }
 
-    fn pure(&mut self, set: &PureSet, complement: bool, scene: &Scene) -> Result<MovingLeaf> {
-        let way = self.way;
+    fn pure(&mut self, set: &PureSet, scene: &Scene) -> Result<MovingLeaf> {
+        let (way, complement) = (self.way, self.complement);
         let places = &mut |link| self.rates.rounding_of_link(link, scene.poses());
         let is_predicate = matches!(set.shape, PureShape::Predicate(_));
         if let Some(start) = self.start {
@@ -152,11 +152,10 @@ impl<'a, 'k> Gathering<'a, 'k> {
     fn add_pairs(
         &mut self,
         term: &'a Group,
-        complement: bool,
         scene: &'a Scene,
         context: &mut QueryContext,
     ) -> Result<()> {
-        let is_outside_meant = complement != (self.keeps == Keeps::In);
+        let is_outside_meant = self.complement != (self.keeps == Keeps::In);
         let threshold = if is_outside_meant {
             term[0].options.contact_epsilon
         } else {
@@ -381,7 +380,7 @@ impl<'a> Gathering<'a, '_> {
 
     /// Bounds the change of the distance of any pair of an induced set, from the middle to any other time.
     fn farthest(&mut self, term: &Induced, scene: &'a Scene) -> f64 {
-        if let BodyPairs::Objects { links, objects, .. } = &term.pairs {
+        if let BodyPairs::Objects(LinksAndObjects { links, objects, .. }) = &term.pairs {
             let environment = objects.environment().serial();
             if scene.held_of(environment).next().is_none() {
                 let shifts = links.iter().map(|&link| self.shift_of_link(scene, link));

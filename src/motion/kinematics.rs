@@ -12,7 +12,7 @@ use crate::tolerance::SUM_SLACK;
 #[derive(Default)]
 pub(super) struct KinematicsMemory {
     states: LinkStates,
-    bodies: Vec<(u32, BodyState)>,
+    bodies: Vec<(u64, BodyState)>,
 }
 
 /// Where the links and the bodies that they carry are at one time, and how they move.
@@ -20,9 +20,9 @@ pub(super) struct Kinematics<'a> {
     motions: &'a LinkMotions,
     states: LinkStates,
     /// By the bodies' numbers, each with the number of the time at which it was asked for.
-    bodies: Vec<(u32, BodyState)>,
+    bodies: Vec<(u64, BodyState)>,
     /// The number of the time.
-    moment: u32,
+    moment: u64,
     /// The time that began last.
     time: Option<f64>,
     /// `None` for bodies without a robot.

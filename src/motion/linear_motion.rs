@@ -1,7 +1,7 @@
 //! A motion with constant velocity through C-space, and bounds of how far it moves links, by the joints between them and what
 //! they are compared with (Quinlan 1994, ch. 4).
 
-use crate::cobject::{BodyPairs, CObject, Induced, PureSet, Set};
+use crate::cobject::{BodyPairs, CObject, Induced, LinksAndObjects, PureSet, Set};
 use crate::environment::{Environment, SObject};
 use crate::error::{Error, Result};
 use crate::pose::Vec3;
@@ -61,7 +61,7 @@ impl<'a> LinearMotion<'a> {
         let &Self { world, q, v, .. } = self;
         let space = self.cobject.space();
         let fastest = match &term.pairs {
-            BodyPairs::Objects { links, objects, .. } => {
+            BodyPairs::Objects(LinksAndObjects { links, objects, .. }) => {
                 let held = extents_of_held(world, objects.environment(), space);
                 let of_link = |link: usize| {
                     let held = held.iter().filter(|(holder, _)| *holder == link);

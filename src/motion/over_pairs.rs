@@ -11,8 +11,8 @@ use crate::reused::emptied;
 pub(super) struct OverPairs<'a, L: TwistLists> {
     made: Vec<OverPiece<'a, L>>,
     /// What is known of each pair, with its place in `made`, and the number of the piece for which that holds.
-    known: Vec<(PairOver<u32>, u32)>,
-    piece: u32,
+    known: Vec<(PairOver<u32>, u64)>,
+    piece: u64,
     /// Of how many pairs something was asked in this piece.
     asked: u64,
     /// The hulls of each pair.
@@ -24,7 +24,7 @@ pub(super) struct OverPairs<'a, L: TwistLists> {
 /// The memory of [`OverPairs`].
 pub(super) struct OverPairsMemory<L: TwistLists + 'static> {
     made: Vec<OverPiece<'static, L>>,
-    known: Vec<(PairOver<u32>, u32)>,
+    known: Vec<(PairOver<u32>, u64)>,
     hulls: Vec<HullsTried>,
 }
 

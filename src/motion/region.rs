@@ -52,7 +52,7 @@ pub struct RegionAnswer {
 }
 
 impl RegionOptions {
-    pub(super) fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         if self.max_boxes == 0 {
             return Err(Error::invalid(
                 "max_boxes is 0: not even one box is looked at",

@@ -333,7 +333,7 @@ impl<'a> Prover<'a, '_, '_> {
         }
         let mut shares = vec![0.0; cobject.space().nv()];
         lists.front.raise_shares(&left, set, piece, &mut shares);
-        let halved = widest(way, shares, &lists.whole_half).map(|(c, _)| c);
+        let halved = widest(way, shares, &lists.whole_half);
         Ok(Looked::Left(left, halved))
     }
 
@@ -398,9 +398,9 @@ impl Front {
     }
 }
 
-/// The coordinate with the largest share, with its velocity; where no pair tells, the one that moves the robot most. `None` if its side
+/// The coordinate with the largest share; where no pair tells, the one that moves the robot most. `None` if its side
 /// is too short to be halved.
-fn widest(way: &Way, mut shares: Vec<f64>, whole_half: &[f64]) -> Option<(usize, usize)> {
+fn widest(way: &Way, mut shares: Vec<f64>, whole_half: &[f64]) -> Option<usize> {
     let space = way.line.cobject.space();
     let (q, half) = (way.line.q, way.line.v);
     if shares.iter().all(|share| *share == 0.0) {
@@ -418,6 +418,6 @@ fn widest(way: &Way, mut shares: Vec<f64>, whole_half: &[f64]) -> Option<(usize,
     };
     coordinates_of_velocities(space)
         .filter(|&(k, c)| shares[k] > 0.0 && can_be_halved(k, c))
-        .map(|(k, c)| (c, k))
-        .max_by(|a, b| shares[a.1].total_cmp(&shares[b.1]))
+        .max_by(|a, b| shares[a.0].total_cmp(&shares[b.0]))
+        .map(|(_, c)| c)
 }

@@ -131,8 +131,8 @@ impl<'a> Cutting<'a> {
         points
     }
 
-    fn replace(&mut self, [from, to]: &[Place; 2], points: Vec<Vec<f64>>) {
-        let lengths = lengths_of(self.space, &points);
+    /// Replaces the points around two places by others, with the lengths between them.
+    fn replace(&mut self, [from, to]: &[Place; 2], points: Vec<Vec<f64>>, lengths: Vec<f64>) {
         self.points.splice(from.segment..=to.segment + 1, points);
         self.lengths.splice(from.segment..=to.segment, lengths);
     }
@@ -235,7 +235,7 @@ impl QueryContext {
             let lengths = lengths_of(cutting.space, &points);
             let gain = replaced.iter().sum::<f64>() - lengths.iter().sum::<f64>();
             if gain > MIN_GAIN * whole && self.may_cut(set, cutting, places, motion)? {
-                cutting.replace(places, points);
+                cutting.replace(places, points, lengths);
                 *cuts += 1;
             }
         }

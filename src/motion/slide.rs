@@ -77,7 +77,7 @@ struct SlideRequest<'a> {
     world: &'a World,
     cobject: &'a CObject,
     q: &'a [f64],
-    here: &'a WitnessList,
+    here: Here<'a>,
     options: &'a SlideOptions,
     /// What touches, and what may still touch after a step.
     allowance: TouchAllowance,
@@ -88,6 +88,29 @@ struct SlideRequest<'a> {
     detail: Detail,
     /// How many intervals proofs may still look at.
     intervals_left: Cell<usize>,
+}
+
+/// What is near at the start.
+struct Here<'a> {
+    list: &'a WitnessList,
+    contacts: Vec<Approach<'a>>,
+    /// The clearance of the nearest.
+    near: f64,
+    /// The clearance to keep: within the desired distance that of the nearest contact.
+    keep: f64,
+}
+
+impl<'a> Here<'a> {
+    fn of(list: &'a WitnessList, length: f64, desired: f64) -> Self {
+        let contacts = approaches(list, length, desired);
+        let near = nearest_movable(&contacts);
+        Self {
+            list,
+            contacts,
+            near,
+            keep: near.min(desired),
+        }
+    }
 }
 
 impl QueryContext {
@@ -167,7 +190,7 @@ impl QueryContext {
             world,
             cobject,
             q,
-            here: &here,
+            here: Here::of(&here, length, options.desired_distance),
             options,
             allowance: TouchAllowance {
                 distance: TOUCH_FRACTION * options.max_shell.min(smallest_radius(world, space)),
@@ -183,7 +206,8 @@ impl QueryContext {
         let all;
         if reached.is_none() {
             all = self.slide_contacts(world, cobject, q, options, Detail::All)?;
-            (request.here, request.detail) = (&all, Detail::All);
+            request.here = Here::of(&all, length, options.desired_distance);
+            request.detail = Detail::All;
             reached = self.find_step(&request, step)?;
         }
         Ok(match reached {
@@ -227,32 +251,49 @@ impl QueryContext {
         wish: &[f64],
         push: Option<&OutwardStep>,
     ) -> Result<Option<Vec<f64>>> {
+        let space = request.cobject.space();
+        let Some(first) = request.first_step(wish, push)? else {
+            return Ok(None);
+        };
+        let first = space.clamp(&space.step(request.q, &first));
+        let Some((reached, nearest)) = self.corrected(request, first, nonzero::length(wish))?
+        else {
+            return Ok(None);
+        };
+        let way = space.displacement(request.q, &reached);
+        let is_worth = request.is_worth(&way, wish, push.is_some(), nearest);
+        if !is_worth || !space.contains(&reached)? {
+            return Ok(None);
+        }
+        let motion = LinearMotion {
+            world: request.world,
+            cobject: request.cobject,
+            q: request.q,
+            v: &way,
+        };
+        let is_free = self.way_is_free(request, motion)?;
+        Ok(is_free.then_some(reached))
+    }
+
+    /// Where the contacts at the end of a step correct it to, by no more than `length` at a time, with the clearance there; `None` where
+    /// that is of no avail.
+    fn corrected(
+        &mut self,
+        request: &SlideRequest,
+        first: Vec<f64>,
+        length: f64,
+    ) -> Result<Option<(Vec<f64>, f64)>> {
         let &SlideRequest {
             world,
             cobject,
-            q,
-            here,
             options,
             ..
         } = request;
-        let space = cobject.space();
-        let desired = options.desired_distance;
-        let length = nonzero::length(wish);
-        let contacts = approaches(here, request.length, desired);
-        let near = nearest_movable(&contacts);
-        // Within the desired distance, the nearest contact sets the distance to keep.
-        let keep = near.min(desired);
-        let limits = step_limits(space, q, length)?;
-        let along = slide_step(wish, &contacts, &limits, keep, options.normalize);
-        let first = match (along, push) {
-            (Some(along), Some(push)) => along.iter().zip(&push.step).map(|(a, b)| a + b).collect(),
-            (Some(along), None) => along,
-            (None, Some(push)) => push.step.clone(),
-            (None, None) => return Ok(None),
-        };
-        let mut reached = space.clamp(&space.step(q, &first));
+        let (space, desired) = (cobject.space(), options.desired_distance);
+        let keep = request.here.keep;
+        let mut reached = first;
         let mut corrections = 0;
-        let nearest = loop {
+        loop {
             if space.check_configuration(&reached).is_err() {
                 return Ok(None);
             }
@@ -263,7 +304,7 @@ impl QueryContext {
             let contacts = approaches(&there, request.length, desired);
             let nearest = nearest_movable(&contacts);
             if corrections == MAX_CORRECTIONS || nearest >= keep - 0.1 * FALL_SHORT * desired {
-                break nearest;
+                return Ok(Some((reached, nearest)));
             }
             corrections += 1;
             let limits = step_limits(space, &reached, length)?;
@@ -273,32 +314,14 @@ impl QueryContext {
                 }
                 _ => return Ok(None),
             }
-        };
-        let way = space.displacement(q, &reached);
-        let (gain, moved) = (dot(&way, wish) / length, nonzero::length(&way));
-        let gains = moved > LEAST_GAIN * length && gain > LEAST_GAIN * moved;
-        let keeps = nearest >= keep - FALL_SHORT * desired;
-        // A push alone must gain more distance than advancing steps may lose, or the two would alternate forever.
-        let is_pushed = push.is_some() && nearest - near >= 0.25 * DEAD_BAND * desired;
-        let goes_on = keeps && (gains || is_pushed) && space.contains(&reached)?;
-        if !goes_on {
-            return Ok(None);
         }
-        let motion = LinearMotion {
-            world,
-            cobject,
-            q,
-            v: &way,
-        };
-        let is_free = self.way_is_free(request, motion)?;
-        Ok(is_free.then_some(reached))
     }
 
     /// Whether the robot is proved to keep clear of the C-object on a motion from the start.
     fn way_is_free(&mut self, request: &SlideRequest, motion: LinearMotion) -> Result<bool> {
         let allowance = &request.allowance;
         let mut start = StartContacts::default();
-        let clearances = request.here.contacts.iter().map(|c| c.clearance);
+        let clearances = request.here.list.contacts.iter().map(|c| c.clearance);
         if clearances.fold(f64::INFINITY, f64::min) <= allowance.distance {
             match self.start_contacts(&motion, allowance)? {
                 Some(found) => start = found,
@@ -326,6 +349,35 @@ impl QueryContext {
             Err(error) if error.kind == ErrorKind::Unsupported => Ok(false),
             Err(error) => Err(error),
         }
+    }
+}
+
+impl SlideRequest<'_> {
+    /// Along the contacts and out from them, as far as either is possible.
+    fn first_step(&self, wish: &[f64], push: Option<&OutwardStep>) -> Result<Option<Vec<f64>>> {
+        let limits = step_limits(self.cobject.space(), self.q, nonzero::length(wish))?;
+        let Here { contacts, keep, .. } = &self.here;
+        let along = slide_step(wish, contacts, &limits, *keep, self.options.normalize);
+        Ok(match (along, push) {
+            (Some(along), Some(push)) => {
+                Some(along.iter().zip(&push.step).map(|(a, b)| a + b).collect())
+            }
+            (Some(along), None) => Some(along),
+            (None, push) => push.map(|push| push.step.clone()),
+        })
+    }
+
+    /// Whether a way keeps its distance, and gains or is pushed out; `nearest` is the clearance at its end.
+    fn is_worth(&self, way: &[f64], wish: &[f64], is_pushed: bool, nearest: f64) -> bool {
+        let Here { near, keep, .. } = self.here;
+        let desired = self.options.desired_distance;
+        let length = nonzero::length(wish);
+        let (gain, moved) = (dot(way, wish) / length, nonzero::length(way));
+        let gains = moved > LEAST_GAIN * length && gain > LEAST_GAIN * moved;
+        let keeps = nearest >= keep - FALL_SHORT * desired;
+        // A push alone must gain more distance than advancing steps may lose, or the two would alternate forever.
+        let gets_out = is_pushed && nearest - near >= 0.25 * DEAD_BAND * desired;
+        keeps && (gains || gets_out)
     }
 }
 
@@ -404,13 +456,12 @@ impl OutwardStep {
     fn of(request: &SlideRequest) -> Result<Option<Self>> {
         let (space, length) = (request.cobject.space(), request.length);
         let desired = request.options.desired_distance;
-        let contacts = approaches(request.here, length, desired);
-        let near = nearest_movable(&contacts);
-        if near >= desired * (1.0 - DEAD_BAND) {
+        let Here { contacts, near, .. } = &request.here;
+        if *near >= desired * (1.0 - DEAD_BAND) {
             return Ok(None);
         }
         let limits = step_limits(space, request.q, length)?;
-        let Some(step) = spring_step(&contacts, &limits, desired) else {
+        let Some(step) = spring_step(contacts, &limits, desired) else {
             return Ok(None);
         };
         let after = contacts

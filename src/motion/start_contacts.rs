@@ -13,7 +13,6 @@ use super::slide_step::Approach;
 use super::way::Way;
 use crate::cobject::{Induced, PureSet, PureShape};
 use crate::error::Result;
-use crate::pair::PrimitiveScratch;
 use crate::query::{
     CacheKey, CandidateFilter, Configuration, Group, PureAt, QueryContext, Scene, Target,
     WitnessList, WitnessRequest, pure_witnesses,
@@ -67,6 +66,15 @@ impl StartContacts {
 
 /// What the robot must keep clear of: a body pair, or a pure set.
 trait Obstacle {
+    /// A safe lower bound of the distance at the start, and where that is below `limit` a plane fixed in the world that separates the robot
+    /// from the obstacle, if one is known.
+    fn at_start(
+        &self,
+        context: &mut QueryContext,
+        places: &Places,
+        limit: f64,
+    ) -> Result<(f64, Option<Separation>)>;
+
     /// A safe lower bound of the distance in a scene; a distance above `limit` may be given as the limit.
     fn lower(&self, context: &mut QueryContext, scene: &Scene, limit: f64) -> Result<f64>;
 
@@ -77,14 +85,6 @@ trait Obstacle {
         start: &Scene,
         request: WitnessRequest,
     ) -> Result<WitnessList>;
-
-    /// A plane fixed in the world that separates the robot from the obstacle, if one is known.
-    fn separation(
-        &self,
-        context: &mut QueryContext,
-        motion: &LinearMotion,
-        start: &Scene,
-    ) -> Result<Option<Separation>>;
 
     /// How far rounding may move the robot's links on the way, where they are placed.
     fn rounding(&self, places: &Places) -> f64;
@@ -253,22 +253,16 @@ impl Near<'_, '_> {
         context: &mut QueryContext,
         obstacle: &impl Obstacle,
     ) -> Result<Option<f64>> {
-        let &Self {
-            rate,
-            places,
-            allowance,
-        } = self;
-        let &Places { motion, start, .. } = places;
         // What does not move relative to the robot may be arbitrarily near.
-        if rate == 0.0 {
+        if self.rate == 0.0 {
             return Ok(Some(1.0));
         }
-        let lower = obstacle.lower(context, start, allowance.distance)?;
-        if lower >= allowance.distance {
+        let cutoff = self.allowance.distance;
+        let (lower, plane) = obstacle.at_start(context, self.places, cutoff)?;
+        if lower >= cutoff {
             return Ok(Some(0.0));
         }
-        let plane = obstacle.separation(context, motion, start)?;
-        let rounding = obstacle.rounding(places);
+        let rounding = obstacle.rounding(self.places);
         if plane.as_ref().is_some_and(|plane| plane.lasts(rounding)) {
             let stays = lower <= 0.0 || self.is_apart_at(context, obstacle, 1.0)?;
             return Ok(stays.then_some(1.0));
@@ -276,34 +270,55 @@ impl Near<'_, '_> {
         if lower > obstacle.touching().max(rounding) {
             return Ok(Some(0.0));
         }
-        let share = |moved: f64| match moved > allowance.distance {
-            true => allowance.distance / moved,
-            false => 1.0,
-        };
-        if lower > 0.0 {
-            // By which it may bend is a product of how far it moves and turns: a quarter of the distance at most.
-            let bend = 2.0 * rate * obstacle.turn(motion);
-            let share = match bend > 0.25 * lower {
-                true => share(rate).min((0.25 * lower / bend).sqrt()),
-                false => share(rate),
-            };
-            let stays = share > 0.0
-                && self.keeps_off(context, obstacle, share, 0.5 * lower)?
-                && self.is_apart_at(context, obstacle, share)?;
-            return Ok(stays.then_some(share));
+        match lower > 0.0 {
+            true => self.followed_where_apart(context, obstacle, lower),
+            false => self.followed_where_touching(context, obstacle, plane),
         }
-        let lowest = -allowance.allowed();
-        // A link that does not move towards a separating plane cannot come nearer, however far it slides.
-        let is_level =
-            |plane: &Separation| plane.gap >= lowest && plane.rate <= LEVEL * allowance.distance;
-        let nearer = plane.filter(is_level).map_or(rate, |plane| plane.rate);
-        let share = share(nearer);
-        if !self.keeps_off(context, obstacle, share, lowest)? {
-            return Ok(None);
+    }
+
+    /// The same of what is apart, but nearer than rounding: it stays apart to second order. By which it may bend is a product of how
+    /// far it moves and turns: a quarter of the distance at most.
+    fn followed_where_apart(
+        &self,
+        context: &mut QueryContext,
+        obstacle: &impl Obstacle,
+        lower: f64,
+    ) -> Result<Option<f64>> {
+        let bend = 2.0 * self.rate * obstacle.turn(self.places.motion);
+        let mut share = self.allowed_share(self.rate);
+        if bend > 0.25 * lower {
+            share = share.min((0.25 * lower / bend).sqrt());
         }
-        // What touches may go on touching, from where it is followed on alone it must be apart.
-        let stays = share == 1.0 || self.is_apart_at(context, obstacle, share)?;
+        let stays = share > 0.0
+            && self.keeps_off(context, obstacle, share, 0.5 * lower)?
+            && self.is_apart_at(context, obstacle, share)?;
         Ok(stays.then_some(share))
+    }
+
+    /// The same of what touches: it may go on touching, and must be apart from where it is followed on.
+    fn followed_where_touching(
+        &self,
+        context: &mut QueryContext,
+        obstacle: &impl Obstacle,
+        plane: Option<Separation>,
+    ) -> Result<Option<f64>> {
+        let lowest = -self.allowance.allowed();
+        // A link that does not move towards a separating plane cannot come nearer, however far it slides.
+        let level = LEVEL * self.allowance.distance;
+        let is_level = |plane: &Separation| plane.gap >= lowest && plane.rate <= level;
+        let nearer = plane.filter(is_level).map_or(self.rate, |plane| plane.rate);
+        let share = self.allowed_share(nearer);
+        let stays = self.keeps_off(context, obstacle, share, lowest)?
+            && (share == 1.0 || self.is_apart_at(context, obstacle, share)?);
+        Ok(stays.then_some(share))
+    }
+
+    /// The part of the motion in which what moves by this in all of it moves no farther than is allowed.
+    fn allowed_share(&self, moved: f64) -> f64 {
+        match moved > self.allowance.distance {
+            true => self.allowance.distance / moved,
+            false => 1.0,
+        }
     }
 
     /// Whether the obstacle is apart from the robot at a time, by more than rounding: what begins apart ends so.
@@ -345,6 +360,36 @@ impl Near<'_, '_> {
 }
 
 impl Obstacle for PairAtStart<'_> {
+    fn at_start(
+        &self,
+        context: &mut QueryContext,
+        places: &Places,
+        limit: f64,
+    ) -> Result<(f64, Option<Separation>)> {
+        let target = &self.target;
+        let found = context.nearest(std::slice::from_ref(target), limit)?;
+        let lower = found.lower.min(limit);
+        let hit = found.hit.map(|(hit, _)| hit);
+        let hit = hit.filter(|hit| lower < limit && hit.contained.is_none());
+        let (Some(hit), (link, None)) = (hit, target.links()) else {
+            return Ok((lower, None));
+        };
+        let pairing = target.pairing();
+        let scratch = context.scratch.for_primitives();
+        let closest = pairing.closest(&hit, scratch);
+        let contacts = pairing.world_contacts(hit.key.primitives, &closest, scratch);
+        let along = contacts.first().and_then(|contact| {
+            let normal = contact.normal;
+            let &Places { motion, start, .. } = places;
+            let rate = motion.directed_rate(start, link, target.sides[0], &normal)?;
+            Some(Separation {
+                gap: pairing.gap_along(&normal) - target.margin(),
+                rate,
+            })
+        });
+        Ok((lower, along))
+    }
+
     fn lower(&self, context: &mut QueryContext, scene: &Scene, limit: f64) -> Result<f64> {
         let Some(sides) = scene.sides_of(&self.term[0], &self.target.key) else {
             return Ok(0.0);
@@ -364,37 +409,6 @@ impl Obstacle for PairAtStart<'_> {
         request: WitnessRequest,
     ) -> Result<WitnessList> {
         context.list(self.term, start, &[self.target], request)
-    }
-
-    fn separation(
-        &self,
-        context: &mut QueryContext,
-        motion: &LinearMotion,
-        start: &Scene,
-    ) -> Result<Option<Separation>> {
-        let target = self.target;
-        let (link, None) = target.links() else {
-            return Ok(None);
-        };
-        let Some((hit, _)) = context.nearest(&[target], f64::INFINITY)?.hit else {
-            return Ok(None);
-        };
-        if hit.contained.is_some() {
-            return Ok(None);
-        }
-        let pairing = target.pairing();
-        let scratch = &mut PrimitiveScratch::default();
-        let closest = pairing.closest(&hit, scratch);
-        let contacts = pairing.world_contacts(hit.key.primitives, &closest, scratch);
-        let along = contacts.first().and_then(|contact| {
-            let normal = contact.normal;
-            let rate = motion.directed_rate(start, link, target.sides[0], &normal)?;
-            Some((normal, rate))
-        });
-        Ok(along.map(|(normal, rate)| Separation {
-            gap: pairing.gap_along(&normal) - target.margin(),
-            rate,
-        }))
     }
 
     fn rounding(&self, places: &Places) -> f64 {
@@ -418,6 +432,32 @@ impl Obstacle for PairAtStart<'_> {
 }
 
 impl Obstacle for PureSet {
+    /// A floor is itself the plane.
+    fn at_start(
+        &self,
+        context: &mut QueryContext,
+        &Places { motion, start, .. }: &Places,
+        limit: f64,
+    ) -> Result<(f64, Option<Separation>)> {
+        let lower = self.lower(context, start, limit)?;
+        let PureShape::Floor { links, normal, .. } = &self.shape else {
+            return Ok((lower, None));
+        };
+        let &[link] = &links[..] else {
+            return Ok((lower, None));
+        };
+        let Some(measure) = self.measure(&start.space_state())? else {
+            return Ok((lower, None));
+        };
+        let carried = start.link(link);
+        let rate = carried.and_then(|body| motion.directed_rate(start, link, body, normal));
+        let plane = rate.map(|rate| Separation {
+            gap: measure.signed - measure.error,
+            rate,
+        });
+        Ok((lower, plane))
+    }
+
     fn lower(&self, _: &mut QueryContext, scene: &Scene, limit: f64) -> Result<f64> {
         let at = PureAt {
             set: self,
@@ -434,30 +474,6 @@ impl Obstacle for PureSet {
         request: WitnessRequest,
     ) -> Result<WitnessList> {
         pure_witnesses(&[(self, false)], start, request)
-    }
-
-    /// A floor is itself the plane.
-    fn separation(
-        &self,
-        _: &mut QueryContext,
-        motion: &LinearMotion,
-        start: &Scene,
-    ) -> Result<Option<Separation>> {
-        let PureShape::Floor { links, normal, .. } = &self.shape else {
-            return Ok(None);
-        };
-        let &[link] = &links[..] else {
-            return Ok(None);
-        };
-        let Some(measure) = self.measure(&start.space_state())? else {
-            return Ok(None);
-        };
-        let carried = start.link(link);
-        let rate = carried.and_then(|body| motion.directed_rate(start, link, body, normal));
-        Ok(rate.map(|rate| Separation {
-            gap: measure.signed - measure.error,
-            rate,
-        }))
     }
 
     fn rounding(&self, places: &Places) -> f64 {

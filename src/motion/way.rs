@@ -17,7 +17,7 @@ use crate::tolerance::EPSILON;
 const TIME_SLACK: f64 = 64.0 * EPSILON;
 
 /// The rounding of a coordinate on its way, relative to where it starts and how far it goes: of the difference of both ends, of its part, and
-/// of their sum.
+/// of their sum. On a curve of degree n, whose control points are no farther off than its speed goes, it is n times as much.
 const COORDINATE_ERROR: f64 = 8.0 * EPSILON;
 
 /// A motion, or the motions in a box, in one state of the world.
@@ -146,6 +146,10 @@ impl<'a> Way<'a> {
     pub fn rounding(&self) -> Vec<f64> {
         let (q, v) = (self.line.q, self.line.v);
         let mut rounding = vec![0.0; v.len()];
+        let error = match self.kind {
+            WayKind::Curve { controls } => COORDINATE_ERROR * (controls.len() / q.len()) as f64,
+            WayKind::Line | WayKind::Stated(_) | WayKind::Box { .. } => COORDINATE_ERROR,
+        };
         for block in self.line.cobject.space().blocks() {
             let (c, k) = (block.coordinate, block.velocity);
             // Quaternions are of length 1.
@@ -153,7 +157,7 @@ impl<'a> Way<'a> {
             for i in 0..block.kind.nv() {
                 let size = if i < lines { q[c + i].abs() } else { 1.0 };
                 if v[k + i] != 0.0 {
-                    rounding[k + i] = COORDINATE_ERROR * (size + v[k + i].abs());
+                    rounding[k + i] = error * (size + v[k + i].abs());
                 }
             }
         }

@@ -16,6 +16,16 @@ pub enum SSide {
     PureSet(PurePlace),
 }
 
+impl SSide {
+    /// The link, if it is one.
+    pub(super) fn link(self) -> Option<usize> {
+        match self {
+            Self::Link(link) => Some(link),
+            Self::Object(_) | Self::PureSet(_) => None,
+        }
+    }
+}
+
 /// What decides the distance of a pure set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PurePlace {

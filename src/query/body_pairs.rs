@@ -11,7 +11,9 @@ use super::link_boxes::LinkBoxes;
 use super::object_offers::{ObjectsTerm, RSide};
 use super::scene::{Group, Scene};
 use super::target::{Placement, Target};
-use crate::cobject::{BodyPairs, ClearPairs, Induced, InducedOptions, LinkRows, SObjects};
+use crate::cobject::{
+    BodyPairs, ClearPairs, Induced, InducedOptions, LinkRows, LinksAndObjects, SObjects,
+};
 use crate::environment::{SObject, Snapshot};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Pairing;
@@ -58,7 +60,7 @@ impl<'a> Scene<'a> {
     pub fn is_empty(&self, group: &Group) -> bool {
         group.iter().all(|term| match &term.pairs {
             BodyPairs::Links { pairs, .. } => pairs.is_empty(),
-            BodyPairs::Objects { links, objects, .. } => {
+            BodyPairs::Objects(LinksAndObjects { links, objects, .. }) => {
                 let Some(snapshot) = self.world().snapshot(objects.environment()) else {
                     return true;
                 };
@@ -82,7 +84,7 @@ impl<'a> Scene<'a> {
 
     /// The same of one induced set.
     pub(super) fn check_term(&self, term: &Induced) -> Result<()> {
-        let BodyPairs::Objects { links, objects, .. } = &term.pairs else {
+        let BodyPairs::Objects(LinksAndObjects { links, objects, .. }) = &term.pairs else {
             return Ok(());
         };
         let Some(snapshot) = self.world().snapshot(objects.environment()) else {
@@ -126,20 +128,12 @@ impl<'a> Scene<'a> {
                     };
                     self.offer_links(&term, &mut candidates, &mut scratch.link_boxes);
                 }
-                BodyPairs::Objects {
-                    links,
-                    bodies,
-                    objects,
-                    exceptions,
-                } => {
-                    let Some(snapshot) = self.world().snapshot(objects.environment()) else {
+                BodyPairs::Objects(pairs) => {
+                    let Some(snapshot) = self.world().snapshot(pairs.objects.environment()) else {
                         continue;
                     };
                     let term = ObjectsTerm {
-                        links,
-                        bodies,
-                        objects,
-                        exceptions,
+                        pairs,
                         options: &term.options,
                         number,
                         snapshot,
@@ -274,30 +268,14 @@ impl<'a> Scene<'a> {
                 is_held.then_some(())?;
                 Some([self.link(r.link)?, self.link(s)?])
             }
-            (
-                BodyPairs::Objects {
-                    links,
-                    bodies,
-                    objects,
-                    exceptions,
-                },
-                SSide::Object(id),
-            ) => {
-                let is_chosen = links.contains(&r.link) && objects.contains(id);
+            (BodyPairs::Objects(pairs), SSide::Object(id)) => {
+                let is_chosen = pairs.links.contains(&r.link) && pairs.objects.contains(id);
                 is_chosen.then_some(())?;
-                let environment = objects.environment();
+                let environment = pairs.objects.environment();
                 let snapshot = self.world().snapshot(environment)?;
                 let object = snapshot.find(id)?;
-                let term = ObjectsTerm {
-                    links,
-                    bodies,
-                    objects,
-                    exceptions,
-                    options: &term.options,
-                    number: 0,
-                    snapshot,
-                };
-                term.admits(r, object).then_some(())?;
+                let is_admitted = pairs.admits(r.link, r.attached, object);
+                is_admitted.then_some(())?;
                 let held = |id: u64| {
                     let mut all = self.held_of(environment.serial());
                     all.find_map(|(_, held)| (held.object.id == id).then_some(held))

@@ -66,14 +66,10 @@ fn push_nearest(
         }
         return Ok(());
     }
-    let s_link = match witness.s_side {
-        SSide::Link(link) => Some(link),
-        _ => witness.s_carrier,
-    };
     match scene.state() {
         Some(state) => {
-            let links = (witness.r_link, s_link);
-            push_gradient(scene.space(), state, links, contact, row)
+            let (normal, points) = (&contact.normal, &contact.points);
+            push_gradient(scene.space(), state, witness.links(), normal, points, row)
         }
         None => Ok(()),
     }

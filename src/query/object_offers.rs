@@ -5,7 +5,7 @@ use super::candidates::Candidates;
 use super::scene::{AttachedObject, Scene};
 use super::target::{Placement, Target};
 use crate::body_bounds::Bounds;
-use crate::cobject::{Exceptions, InducedOptions, SObjects};
+use crate::cobject::{InducedOptions, LinksAndObjects, SObjects};
 use crate::environment::{NearScratch, SObject, Snapshot};
 use crate::index_set::IndexSet;
 
@@ -19,33 +19,10 @@ pub(super) struct RSide {
 
 /// An induced set of links against s-objects, with its number in the group and the snapshot that it sees.
 pub(super) struct ObjectsTerm<'t, 's> {
-    pub links: &'t [usize],
-    pub bodies: &'t IndexSet,
-    pub objects: &'t SObjects,
-    pub exceptions: &'t Exceptions,
+    pub pairs: &'t LinksAndObjects,
     pub options: &'t InducedOptions,
     pub number: u32,
     pub snapshot: &'s Snapshot,
-}
-
-impl ObjectsTerm<'_, '_> {
-    /// Whether the set contains a body pair; the link of `r` must be one of its links.
-    pub fn admits(&self, r: RSide, object: &SObject) -> bool {
-        if self.exceptions.have(r.link, r.attached, object) {
-            return false;
-        }
-        let Some(attachment) = &object.attachment else {
-            return true;
-        };
-        // An attached object is not tested against the link that holds it, nor against its touch links. Of two attached
-        // objects, the one with the lower id is the r-side.
-        let touches = attachment.link == r.link
-            || (r.attached == 0 && attachment.touch_links.contains(&r.link));
-        let is_mirrored = r.attached > object.id
-            && self.objects.contains(r.attached)
-            && self.links.contains(&attachment.link);
-        !touches && !is_mirrored
-    }
 }
 
 /// The s-side of a pair: the object, its placement, and the link that holds it.
@@ -102,7 +79,7 @@ impl<'s> ObjectOffers<'_, 's, '_, '_> {
 
     /// Offers the set's objects that are attached to links.
     fn offer_attached(&mut self, bodies: &IndexSet, environment: u64) {
-        let objects = self.term.objects;
+        let objects = &self.term.pairs.objects;
         let held = self.scene.held_of(environment);
         let first_held = self.scene.space().bodies().count();
         for (i, held) in held.filter(|(_, held)| objects.contains(held.object.id)) {
@@ -119,7 +96,7 @@ impl<'s> ObjectOffers<'_, 's, '_, '_> {
     fn offer(&mut self, body: usize, at: SObjectAt<'s>, other: &Bounds, bound: f64) -> f64 {
         let (scene, term) = (self.scene, self.term);
         let r = scene.r_side(body);
-        if !term.admits(r, at.object) {
+        if !term.pairs.admits(r.link, r.attached, at.object) {
             return self.candidates.cutoff(term.options);
         }
         let bounds = scene.bounds().get(body);
@@ -147,13 +124,19 @@ impl<'a> Scene<'a> {
         bodies: &mut IndexSet,
         near: &mut NearScratch,
     ) {
-        let environment = term.objects.environment().serial();
+        let LinksAndObjects {
+            links,
+            bodies: of_links,
+            objects,
+            ..
+        } = term.pairs;
+        let environment = objects.environment().serial();
         let last_link = candidates.last_link();
         let carriers = self.space().bodies().carriers();
         let up_to_last = carriers.partition_point(|&link| link <= last_link);
         bodies.clear(self.body_count());
-        bodies.extend_below(term.bodies, up_to_last);
-        for body in self.held_bodies_of(term.links, environment) {
+        bodies.extend_below(of_links, up_to_last);
+        for body in self.held_bodies_of(links, environment) {
             if self.r_side(body).link <= last_link {
                 bodies.insert(body);
             }
@@ -163,7 +146,7 @@ impl<'a> Scene<'a> {
             term,
             candidates,
         };
-        match term.objects {
+        match objects {
             SObjects::All(_) => offers.offer_near(bodies, near),
             SObjects::Some(_, ids) => offers.offer_chosen(bodies, ids),
         }

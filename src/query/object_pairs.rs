@@ -1,8 +1,6 @@
 //! The objects of an environment among themselves, or against those of another: which pairs are near, how near, and where.
 
-use std::cmp::Ordering;
-
-use super::answer::{ContactsListed, Distance, SSide, Witness, WitnessList};
+use super::answer::{Distance, SSide, Witness, WitnessList};
 use super::cache_key::CacheKey;
 use super::context::{QueryContext, check_threshold};
 use super::object_sets::{NearPair, ObjectSets, target, targets};
@@ -11,7 +9,6 @@ use super::target::Target;
 use crate::cobject::{Class, Leaf};
 use crate::environment::Snapshot;
 use crate::error::Result;
-use crate::pair::{Collect, PrimitiveScratch};
 
 /// Two objects that are near each other. Within one environment the first is the one with the lower id.
 #[derive(Clone, Debug)]
@@ -37,11 +34,43 @@ pub struct ObjectPairList {
     pub version: u64,
 }
 
-/// This many near pairs are looked at together: so many targets take 3 MB.
-const BLOCK: usize = 1 << 14;
+/// Which near pairs are looked at together.
+#[derive(Clone, Copy)]
+struct Blocks {
+    /// How near pairs must be, to begin with.
+    limit: f64,
+    /// So many pairs make a block.
+    size: usize,
+    /// Only the nearest pair counts: the limit falls with the pairs' upper bounds too.
+    nearest_alone: bool,
+}
 
-/// The same where one pair may decide.
-const SMALL_BLOCK: usize = 1 << 6;
+impl Blocks {
+    /// All pairs count: so many targets take 3 MB.
+    fn of_all(limit: f64) -> Self {
+        Self {
+            limit,
+            size: 1 << 14,
+            nearest_alone: false,
+        }
+    }
+
+    /// One pair decides.
+    fn of_any(limit: f64) -> Self {
+        Self {
+            size: 1 << 6,
+            ..Self::of_all(limit)
+        }
+    }
+
+    /// The nearest pair decides.
+    fn of_nearest(limit: f64) -> Self {
+        Self {
+            nearest_alone: true,
+            ..Self::of_any(limit)
+        }
+    }
+}
 
 impl QueryContext {
     /// Whether two objects may be at most `threshold` apart: doubt within rounding counts as within.
@@ -49,15 +78,12 @@ impl QueryContext {
         check_threshold(threshold, "threshold")?;
         self.look_at(sets);
         if let Some(recent) = self.recent_pair(sets)?
-            && self.target_within(
-                &target(sets.sides().map(|side| &**side), &recent),
-                threshold,
-            )?
+            && self.target_within(&target(sets.sides(), &recent), threshold)?
         {
             return Ok(true);
         }
         let mut found = false;
-        self.in_blocks(sets, threshold, SMALL_BLOCK, |context, sides, block| {
+        self.in_blocks(sets, Blocks::of_any(threshold), |context, sides, block| {
             for pair in block.drain(..) {
                 let target = target(sides, &pair);
                 if context.target_within(&target, threshold)? {
@@ -86,11 +112,11 @@ impl QueryContext {
         }
         let mut limit = max_distance;
         if let Some(recent) = self.recent_pair(sets)? {
-            let target = target(sets.sides().map(|side| &**side), &recent);
+            let target = target(sets.sides(), &recent);
             limit = self.target_distance(&target, limit)?.distance.min(limit);
         }
         let (mut best, mut lower) = (None, f64::INFINITY);
-        self.in_blocks_of_nearest(sets, limit, |context, sides, block| {
+        self.in_blocks(sets, Blocks::of_nearest(limit), |context, sides, block| {
             let targets = targets(sides, block);
             let found = context.nearest(&targets, limit)?;
             lower = found.lower.min(lower);
@@ -142,7 +168,7 @@ impl QueryContext {
         };
         // Once more than enough were found, what comes behind the last is not asked about.
         let mut last: Option<[usize; 2]> = None;
-        self.in_blocks(sets, distance, BLOCK, |context, sides, block| {
+        self.in_blocks(sets, Blocks::of_all(distance), |context, sides, block| {
             for pair in block.drain(..) {
                 let is_behind = last.is_some_and(|last| pair.places > last);
                 if !is_behind && context.target_within(&target(sides, &pair), distance)? {
@@ -164,7 +190,7 @@ impl QueryContext {
         };
         list.pairs.reserve(found.len());
         for pair in &found {
-            let target = target(sets.sides().map(|side| &**side), pair);
+            let target = target(sets.sides(), pair);
             let (_, a, b) = target.ids();
             let meet = if with_distances {
                 let measured = self.target_distance(&target, f64::INFINITY)?;
@@ -195,12 +221,11 @@ impl QueryContext {
     ) -> Result<WitnessList> {
         check_threshold(epsilon, "epsilon")?;
         self.look_at(sets);
-        let contacts = self.contacts;
         let (mut lists, mut limit) = (Vec::new(), epsilon);
         let mut count = 0;
-        self.in_blocks(sets, epsilon, BLOCK, |context, sides, block| {
+        self.in_blocks(sets, Blocks::of_all(epsilon), |context, sides, block| {
             let targets = targets(sides, block);
-            let list = context.block_witnesses(&targets, limit, max_count, contacts)?;
+            let list = context.list_of_bodies(&targets, limit, max_count)?;
             block.clear();
             count += list.witnesses.len();
             lists.push(list);
@@ -227,31 +252,6 @@ impl QueryContext {
             version: sets.version(),
             ..list
         })
-    }
-
-    fn block_witnesses(
-        &mut self,
-        targets: &[Target],
-        epsilon: f64,
-        max_count: usize,
-        contacts: ContactsListed,
-    ) -> Result<WitnessList> {
-        let visitor = Collect::new(epsilon, max_count, false);
-        let (hits, truncated) = self.collect(targets, visitor)?;
-        let mut list = WitnessList {
-            truncated,
-            ..Default::default()
-        };
-        list.reserve(hits.len());
-        let mut by_rank: Vec<&Target> = targets.iter().collect();
-        by_rank.sort_unstable_by_key(|target| target.rank);
-        let mut scratch = PrimitiveScratch::default();
-        for hit in &hits {
-            let target = by_rank[hit.key.pair as usize];
-            let leaf = Leaf::default();
-            list.push(target, &target.pairing(), hit, leaf, contacts, &mut scratch);
-        }
-        Ok(list)
     }
 
     /// Begins a call, and records the versions of the environments.
@@ -292,47 +292,25 @@ impl QueryContext {
     fn in_blocks(
         &mut self,
         sets: &mut ObjectSets,
-        limit: f64,
-        size: usize,
-        each: impl FnMut(&mut Self, [&Snapshot; 2], &mut Vec<NearPair>) -> Result<f64>,
-    ) -> Result<()> {
-        self.blocks::<false>(sets, limit, size, each)
-    }
-
-    /// The same for the nearest pair alone: the limit falls with the pairs' bounds too.
-    fn in_blocks_of_nearest(
-        &mut self,
-        sets: &mut ObjectSets,
-        limit: f64,
-        each: impl FnMut(&mut Self, [&Snapshot; 2], &mut Vec<NearPair>) -> Result<f64>,
-    ) -> Result<()> {
-        self.blocks::<true>(sets, limit, SMALL_BLOCK, each)
-    }
-
-    fn blocks<const NEAREST: bool>(
-        &mut self,
-        sets: &mut ObjectSets,
-        limit: f64,
-        size: usize,
+        asked: Blocks,
         mut each: impl FnMut(&mut Self, [&Snapshot; 2], &mut Vec<NearPair>) -> Result<f64>,
     ) -> Result<()> {
         let mut scratch = std::mem::take(&mut self.near_pairs);
         let mut block = Vec::new();
-        let (mut limit, mut done) = (limit, Ok(()));
+        let (mut limit, mut done) = (asked.limit, Ok(()));
         let (first, second) = (sets.first.clone(), sets.second.clone());
         let sides = [&*first, second.as_deref().unwrap_or(&first)];
-        let first_limit = limit;
         let mut offer = |context: &mut Self, places: [usize; 2], at_least: f64| -> Result<f64> {
             context.count_body_pair()?;
             let [a, b] = [sides[0].bounds(places[0]), sides[1].bounds(places[1])];
             let [lower, upper] = a.distance(b);
             let bound = lower.max(at_least);
             if bound <= limit && sets.admits(places)? {
-                if NEAREST {
+                if asked.nearest_alone {
                     limit = limit.min(upper);
                 }
                 block.push(NearPair { places, bound });
-                if block.len() >= size {
+                if block.len() >= asked.size {
                     limit = each(context, sides, &mut block)?;
                 }
             }
@@ -340,7 +318,7 @@ impl QueryContext {
         };
         first.visit_near_pairs(
             second.as_deref(),
-            first_limit,
+            asked.limit,
             &mut scratch,
             |places, lower| {
                 if done.is_err() {
@@ -368,48 +346,14 @@ impl QueryContext {
         }
         self.any_within(std::slice::from_ref(target), |_| threshold)
     }
-
-    /// The distance of two objects, up to a maximum.
-    fn target_distance(&mut self, target: &Target, max_distance: f64) -> Result<Distance> {
-        let [(a, _), (b, _)] = target.sides;
-        if let Some(only) = OnePrimitive::of([a, b]) {
-            return self.only_distance(only, target, max_distance);
-        }
-        let targets = std::slice::from_ref(target);
-        let found = self.nearest(targets, max_distance)?;
-        let scratch = self.scratch.for_primitives();
-        Ok(Distance::from_found(
-            &found,
-            max_distance,
-            |_| Leaf::default(),
-            scratch,
-        ))
-    }
 }
 
-/// The nearest witnesses of some lists; ties go to the lowest ids.
+/// The nearest witnesses of some lists; ties go to the lowest ids, as within a block.
 fn merged(lists: &[WitnessList], max_count: usize) -> WitnessList {
-    let each = lists
-        .iter()
-        .flat_map(|list| list.witnesses.iter().map(move |witness| (list, witness)));
-    let mut all: Vec<(&WitnessList, &Witness)> = each.collect();
-    all.sort_by(|(_, a), (_, b)| in_order(a, b));
-    let mut merged = WitnessList {
-        truncated: all.len() > max_count || lists.iter().any(|list| list.truncated),
-        ..Default::default()
-    };
-    for (list, witness) in all.into_iter().take(max_count) {
-        merged.take(list, witness);
-    }
-    merged
-}
-
-/// The order of hits within a block (see `Hit`).
-fn in_order(a: &Witness, b: &Witness) -> Ordering {
     let key = |w: &Witness| (w.r_object, w.s_side, w.primitives, w.contained);
-    a.distance
-        .total_cmp(&b.distance)
-        .then_with(|| key(a).cmp(&key(b)))
+    let mut merged = WitnessList::default();
+    merged.take_nearest(lists, max_count, |a, b| key(a).cmp(&key(b)));
+    merged
 }
 
 fn object_of(side: SSide) -> u64 {

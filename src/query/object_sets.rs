@@ -65,7 +65,7 @@ impl<'f> ObjectSets<'f> {
     }
 
     /// The states of the two sides.
-    pub(super) fn sides(&self) -> [&Arc<Snapshot>; 2] {
+    pub(super) fn sides(&self) -> [&Snapshot; 2] {
         [&self.first, self.second.as_ref().unwrap_or(&self.first)]
     }
 

@@ -9,8 +9,7 @@ use crate::body::Body;
 use crate::cobject::{InducedOptions, Leaf};
 use crate::error::{Error, Result};
 use crate::pair::{
-    BallAndSolid, Collect, OnlyBall, Pairing, PrimitiveScratch, Rounds, Singles, SinglesNearest,
-    are_spheres, only_rounds,
+    BallAndSolid, OnlyBall, Pairing, Rounds, Singles, SinglesNearest, are_spheres, only_rounds,
 };
 use crate::primitive::Round;
 
@@ -162,11 +161,21 @@ impl QueryContext {
         b: Placement,
         max_distance: f64,
     ) -> Result<Distance> {
-        let target = target(a, b)?;
-        if let Some(only) = OnePrimitive::of([a.0, b.0]) {
-            return self.only_distance(only, &target, max_distance);
+        self.target_distance(&target(a, b)?, max_distance)
+    }
+
+    /// The same of a target.
+    #[inline(always)]
+    pub(super) fn target_distance(
+        &mut self,
+        target: &Target,
+        max_distance: f64,
+    ) -> Result<Distance> {
+        let [(a, _), (b, _)] = target.sides;
+        if let Some(only) = OnePrimitive::of([a, b]) {
+            return self.only_distance(only, target, max_distance);
         }
-        self.searched_distance(&[target], max_distance)
+        self.searched_distance(std::slice::from_ref(target), max_distance)
     }
 
     #[inline(never)]
@@ -386,20 +395,7 @@ impl QueryContext {
     ) -> Result<WitnessList> {
         check_threshold(epsilon, "epsilon")?;
         let target = target(a, b)?;
-        let pairing = &target.pairing();
         self.scratch.meter_mut().start_call();
-        let visitor = Collect::new(epsilon, max_count, false);
-        let (hits, truncated) = self.collect(std::slice::from_ref(&target), visitor)?;
-        let mut list = WitnessList {
-            truncated,
-            ..Default::default()
-        };
-        list.reserve(hits.len());
-        let mut scratch = PrimitiveScratch::default();
-        for hit in &hits {
-            let leaf = Leaf::default();
-            list.push(&target, pairing, hit, leaf, self.contacts, &mut scratch);
-        }
-        Ok(list)
+        self.list_of_bodies(std::slice::from_ref(&target), epsilon, max_count)
     }
 }

@@ -5,29 +5,12 @@ use super::answer::Witness;
 use super::candidates::CandidateFilter;
 use super::context::{QueryContext, check_threshold};
 use super::scene::{Configuration, Group, Scene};
+use super::signed_derivative::{Derivative, GradientKind, SeenPair};
 use super::target::Target;
 use crate::cobject::{CObject, InducedOptions, Leaf, Set};
-use crate::depth::{Depth, DepthOptions, Touching, require_inside, touching_at};
+use crate::depth::{DepthOptions, require_inside};
 use crate::error::{Error, ErrorKind, Result};
-use crate::pair::Hit;
 use crate::pose::Vec3;
-use crate::robot::RobotState;
-use crate::tolerance;
-
-/// What the row of a signed distance is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum GradientKind {
-    /// The derivative.
-    Derivative,
-    /// Several features are nearest, or several ways out shortest: the derivative of one of them. The distance has no
-    /// derivative here.
-    OneOfSeveral,
-    /// The depth is not known to the tolerance, or its way out is not explained by what it touches: the derivative of the
-    /// translation found.
-    Approximate,
-    /// The bodies meet, and neither has an inside everywhere: no depth is defined. The row is 0.
-    Undefined,
-}
 
 /// The signed distance of two bodies, less the margin.
 #[derive(Clone, Debug)]
@@ -71,12 +54,6 @@ struct Measured {
 
 /// So many pairs are measured before the list is cut to those asked for.
 const MIN_KEPT: usize = 64;
-
-/// Contacts whose distances differ by less than this, times the pair's size, are equally near.
-const EQUALLY_NEAR: f64 = 1e-10;
-
-/// Rows that differ by less than this, times their size, are of one derivative.
-const SAME_ROW: f64 = 1e-7;
 
 impl QueryContext {
     /// The signed distances of all body pairs of a union of induced sets that are at most `max_distance` apart, less the margin,
@@ -170,15 +147,15 @@ impl QueryContext {
             distance: (hit.distance - margin).max(0.0),
             ..Witness::of(&target.parties(), &hit, leaf)
         };
-        let state = scene.state().expect("the configuration is known");
-        let error = target.pairing().precision.error;
+        let seen = &SeenPair::new(scene, target);
+        let error = seen.pairing.precision.error;
         if hit.contained.is_none() && hit.apart > error {
-            let apart = self.apart(scene, state, target, &hit)?;
+            let apart = Derivative::of_apart(seen, &hit, &mut self.scratch)?;
             let pair = SignedDistance {
                 distance: hit.apart - margin,
                 lower: hit.apart - margin - doubt.max(error),
                 upper: hit.apart - margin + excess + error,
-                ..apart.pair_of(witness)
+                ..SignedDistance::with(&apart, witness)
             };
             return Ok(Some(Measured {
                 pair: if pair.lower + target.options.margin > 0.0 {
@@ -191,13 +168,12 @@ impl QueryContext {
         }
         let [(a, _), (b, _)] = target.sides;
         if require_inside(a, b).is_err() {
-            let undefined =
-                Derivative::undefined(scene.space().nv(), &target.pairing().frame.translation);
+            let undefined = Derivative::undefined(seen);
             let pair = SignedDistance {
                 distance: -margin,
                 lower: f64::NEG_INFINITY,
                 upper: excess - margin,
-                ..undefined.pair_of(witness)
+                ..SignedDistance::with(&undefined, witness)
             };
             return Ok(Some(Measured {
                 pair,
@@ -209,55 +185,30 @@ impl QueryContext {
             ..*options
         };
         let depth = self.depth_of(target, &options)?;
-        let out = way_out(scene, state, target, &depth)?;
+        let out = Derivative::of_way_out(seen, &depth)?;
         let pair = SignedDistance {
             distance: -depth.upper - margin,
             lower: -depth.upper - margin,
             upper: -depth.lower - margin,
-            ..out.pair_of(witness)
+            ..SignedDistance::with(&out, witness)
         };
         let pair = of_approximate(pair, target);
         Ok(Some(Measured { pair, row: out.row }))
     }
+}
 
-    /// The derivative for bodies that are apart.
-    fn apart(
-        &mut self,
-        scene: &Scene,
-        state: RobotState,
-        target: &Target,
-        hit: &Hit,
-    ) -> Result<Derivative> {
-        let pairing = target.pairing();
-        let reach = hit.apart + EQUALLY_NEAR * pairing.precision.size;
-        let (touching, is_all) = touching_at(&pairing, &Vec3::zeros(), reach, &mut self.scratch);
-        self.scratch.meter().check()?;
-        let near: Vec<&Touching> = touching
-            .iter()
-            .filter(|contact| contact.gap <= reach)
-            .collect();
-        let own = |contact: &&&Touching| contact.primitives == hit.key.primitives;
-        let Some(&first) = near.iter().find(own).or(near.first()) else {
-            return Ok(Derivative::undefined(
-                scene.space().nv(),
-                &pairing.frame.translation,
-            ));
-        };
-        let rows: Result<Vec<Vec<f64>>> = near
-            .iter()
-            .map(|contact| row(scene, state, target, &contact.normal, contact))
-            .collect();
-        let own_row = row(scene, state, target, &first.normal, first)?;
-        let is_one = rows?.iter().all(|row| are_same(row, &own_row));
-        Ok(Derivative {
-            row: own_row,
-            normal: pairing.frame.rotation * first.normal,
-            points: first.points.map(|p| pairing.frame.transform_point(&p)),
-            kind: match is_one && is_all {
-                true => GradientKind::Derivative,
-                false => GradientKind::OneOfSeveral,
-            },
-        })
+impl SignedDistance {
+    /// A pair whose distances are still to be set.
+    fn with(derivative: &Derivative, witness: Witness) -> Self {
+        Self {
+            witness,
+            distance: 0.0,
+            lower: 0.0,
+            upper: 0.0,
+            normal: derivative.normal,
+            points: derivative.points,
+            gradient: derivative.kind,
+        }
     }
 }
 
@@ -304,104 +255,4 @@ fn of_approximate(pair: SignedDistance, target: &Target) -> SignedDistance {
         upper: pair.upper.max(stated - target.options.margin),
         ..pair
     }
-}
-
-/// The derivative of a signed distance, with what it is taken at. In the world.
-struct Derivative {
-    row: Vec<f64>,
-    normal: Vec3,
-    points: [Vec3; 2],
-    kind: GradientKind,
-}
-
-impl Derivative {
-    fn undefined(nv: usize, point: &Vec3) -> Self {
-        Self {
-            row: vec![0.0; nv],
-            normal: Vec3::zeros(),
-            points: [*point; 2],
-            kind: GradientKind::Undefined,
-        }
-    }
-
-    /// A pair whose distances are still to be set.
-    fn pair_of(&self, witness: Witness) -> SignedDistance {
-        SignedDistance {
-            witness,
-            distance: 0.0,
-            lower: 0.0,
-            upper: 0.0,
-            normal: self.normal,
-            points: self.points,
-            gradient: self.kind,
-        }
-    }
-}
-
-/// The derivative for bodies that meet. The way out t is as long as the half-spaces n_k . t >= o_k make it that touch after it;
-/// the derivative of |t| is the sum of their multipliers times the derivatives of o_k - n_k . t, which are those of the
-/// distances of what touches there.
-fn way_out(scene: &Scene, state: RobotState, target: &Target, depth: &Depth) -> Result<Derivative> {
-    let pairing = target.pairing();
-    let direction = depth.way / depth.upper;
-    let Some(first) = &depth.first else {
-        let mut undefined = Derivative::undefined(scene.space().nv(), &pairing.frame.translation);
-        undefined.kind = GradientKind::Approximate;
-        undefined.normal = pairing.frame.rotation * direction;
-        return Ok(undefined);
-    };
-    let mut sum = vec![0.0; scene.space().nv()];
-    let mut is_one = !depth.has_rival;
-    for (weight, contacts) in &depth.out.terms {
-        let normal = contacts[0].normal * *weight;
-        let own = row(scene, state, target, &normal, &contacts[0])?;
-        for contact in &contacts[1..] {
-            is_one &= are_same(&own, &row(scene, state, target, &normal, contact)?);
-        }
-        sum.iter_mut().zip(&own).for_each(|(sum, x)| *sum += x);
-    }
-    if depth.out.terms.is_empty() {
-        sum = row(scene, state, target, &direction, first)?;
-    }
-    let is_known = depth.is_tight && depth.out.is_explained;
-    Ok(Derivative {
-        row: sum,
-        normal: pairing.frame.rotation * direction,
-        points: first.points.map(|p| pairing.frame.transform_point(&p)),
-        kind: match (is_known, is_one && depth.out.is_regular) {
-            (false, _) => GradientKind::Approximate,
-            (true, false) => GradientKind::OneOfSeveral,
-            (true, true) => GradientKind::Derivative,
-        },
-    })
-}
-
-/// The derivative of the distance of two points along a direction, all in the centred frame of the first body.
-fn row(
-    scene: &Scene,
-    state: RobotState,
-    target: &Target,
-    direction: &Vec3,
-    contact: &Touching,
-) -> Result<Vec<f64>> {
-    let space = scene.space();
-    let frame = target.pairing().frame;
-    let [on_r, on_s] = contact.points.map(|p| frame.transform_point(&p));
-    let direction = frame.rotation * direction;
-    let mut row = vec![0.0; space.nv()];
-    let (r_link, s_link) = target.links();
-    space.add_gradient(state, r_link, &on_r, &direction, &mut row)?;
-    if let Some(s_link) = s_link {
-        space.add_gradient(state, s_link, &on_s, &-direction, &mut row)?;
-    }
-    Ok(row)
-}
-
-fn are_same(a: &[f64], b: &[f64]) -> bool {
-    let size = a
-        .iter()
-        .chain(b)
-        .fold(0.0, |size: f64, x| size.max(x.abs()));
-    let slack = SAME_ROW * size + tolerance::EPSILON;
-    a.iter().zip(b).all(|(x, y)| (x - y).abs() <= slack)
 }

@@ -96,10 +96,7 @@ impl<'a> Target<'a> {
     /// The link that moves the r-side, and the one that moves the s-side, if one does.
     pub fn links(&self) -> (usize, Option<usize>) {
         let (r_link, _, s_side) = self.ids();
-        match s_side {
-            SSide::Link(s) => (r_link, Some(s)),
-            _ => (r_link, self.s_carrier),
-        }
+        (r_link, s_side.link().or(self.s_carrier))
     }
 
     /// Who its two sides are.

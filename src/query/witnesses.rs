@@ -1,5 +1,8 @@
 //! Operations 7 and 8: the witnesses of all leaves of a set, nearest first, and the gradients of their contacts.
 
+use std::cmp::Ordering;
+use std::ops::Range;
+
 use super::answer::{ContactRecord, ContactsListed, Witness, WitnessList};
 use super::candidates::CandidateFilter;
 use super::context::{QueryContext, check_threshold};
@@ -10,6 +13,7 @@ use super::target::{Parties, Target};
 use crate::cobject::{CObject, Leaf, PureSet};
 use crate::error::Result;
 use crate::pair::{Collect, Hit, Pairing, PrimitiveScratch, WorldContact, traverse};
+use crate::pose::Vec3;
 use crate::robot::RobotState;
 use crate::space::Space;
 
@@ -137,27 +141,41 @@ impl QueryContext {
         let mut visitor = Collect::new(request.epsilon, request.max_count, request.counts_doubt);
         visitor.band = request.band;
         let (hits, truncated) = self.collect(candidates, visitor)?;
-        let state = scene.state().filter(|_| request.with_gradients);
         let mut list = WitnessList {
             truncated,
             ..WitnessList::empty(scene, request)
         };
         let ranked = by_rank(candidates);
-        let mut scratch = PrimitiveScratch::default();
-        list.reserve(hits.len());
-        for hit in &hits {
-            let target = ranked[hit.key.pair as usize];
-            let first = list.contacts.len();
-            let leaf = group[target.term as usize].leaf;
-            let pairing = target.pairing();
-            list.push(target, &pairing, hit, leaf, request.contacts, &mut scratch);
-            if let Some(state) = state {
-                for contact in &list.contacts[first..] {
-                    let rows = &mut list.gradients;
-                    push_gradient(scene.space(), state, target.links(), contact, rows)?;
+        let leaf_of = |target: &Target| group[target.term as usize].leaf;
+        list.push_hits(&ranked, &hits, request.contacts, leaf_of);
+        if let Some(state) = scene.state().filter(|_| request.with_gradients) {
+            let rows = &mut list.gradients;
+            for (hit, witness) in hits.iter().zip(&list.witnesses) {
+                let links = ranked[hit.key.pair as usize].links();
+                for contact in &list.contacts[witness.contacts()] {
+                    let (normal, points) = (&contact.normal, &contact.points);
+                    push_gradient(scene.space(), state, links, normal, points, rows)?;
                 }
             }
         }
+        Ok(list)
+    }
+
+    /// The witnesses of bodies that are asked about without a set.
+    pub(super) fn list_of_bodies(
+        &mut self,
+        targets: &[Target],
+        epsilon: f64,
+        max_count: usize,
+    ) -> Result<WitnessList> {
+        let visitor = Collect::new(epsilon, max_count, false);
+        let (hits, truncated) = self.collect(targets, visitor)?;
+        let mut list = WitnessList {
+            truncated,
+            ..Default::default()
+        };
+        let ranked = by_rank(targets);
+        list.push_hits(&ranked, &hits, self.contacts, |_| Leaf::default());
         Ok(list)
     }
 
@@ -252,8 +270,32 @@ impl WitnessList {
         }
     }
 
-    /// Appends a primitive pair with the contacts requested.
-    pub(super) fn push(
+    /// Appends the primitive pairs found, with the contacts requested; hits name their targets by rank.
+    fn push_hits(
+        &mut self,
+        ranked: &[&Target],
+        hits: &[Hit],
+        contacts: ContactsListed,
+        leaf_of: impl Fn(&Target) -> Leaf,
+    ) {
+        // Most have one contact.
+        self.witnesses.reserve(hits.len());
+        self.contacts.reserve(hits.len());
+        let mut scratch = PrimitiveScratch::default();
+        // The next hit is often one of the same bodies.
+        let mut last: Option<(u32, Pairing)> = None;
+        for hit in hits {
+            let target = ranked[hit.key.pair as usize];
+            let (_, pairing) = match &mut last {
+                Some(last) if last.0 == hit.key.pair => last,
+                _ => last.insert((hit.key.pair, target.pairing())),
+            };
+            let leaf = leaf_of(target);
+            self.push(target, pairing, hit, leaf, contacts, &mut scratch);
+        }
+    }
+
+    fn push(
         &mut self,
         target: &Target,
         pairing: &Pairing,
@@ -284,31 +326,37 @@ impl WitnessList {
         });
     }
 
-    /// Reserves memory for witnesses; most have one contact.
-    pub(super) fn reserve(&mut self, count: usize) {
-        self.witnesses.reserve(count);
-        self.contacts.reserve(count);
-    }
-
     /// Merges lists, nearest first; ties go to earlier lists.
     pub(crate) fn merged(lists: Vec<WitnessList>, scene: &Scene, request: WitnessRequest) -> Self {
         let mut merged = Self::empty(scene, request);
-        let count: usize = lists.iter().map(|list| list.witnesses.len()).sum();
-        merged.truncated = count > request.max_count || lists.iter().any(|list| list.truncated);
-        let all = lists
+        merged.take_nearest(&lists, request.max_count, |_, _| Ordering::Equal);
+        merged
+    }
+
+    /// Appends the nearest witnesses of some lists; `ties` orders those equally near, and ties of it go to earlier lists.
+    pub(super) fn take_nearest(
+        &mut self,
+        lists: &[WitnessList],
+        max_count: usize,
+        ties: impl Fn(&Witness, &Witness) -> Ordering,
+    ) {
+        let each = lists
             .iter()
             .flat_map(|list| list.witnesses.iter().map(move |witness| (list, witness)));
-        let mut all: Vec<(&WitnessList, &Witness)> = all.collect();
-        all.sort_by(|a, b| a.1.distance.total_cmp(&b.1.distance));
-        for (list, witness) in all.into_iter().take(request.max_count) {
-            merged.take(list, witness);
+        let mut all: Vec<(&WitnessList, &Witness)> = each.collect();
+        self.truncated = all.len() > max_count || lists.iter().any(|list| list.truncated);
+        all.sort_by(|(_, a), (_, b)| {
+            let nearer = a.distance.total_cmp(&b.distance);
+            nearer.then_with(|| ties(a, b))
+        });
+        for (list, witness) in all.into_iter().take(max_count) {
+            self.take(list, witness);
         }
-        merged
     }
 
     /// Appends a witness of another list, with its contacts.
     pub(super) fn take(&mut self, list: &WitnessList, witness: &Witness) {
-        let contacts = witness.first_contact..witness.first_contact + witness.contact_count;
+        let contacts = witness.contacts();
         self.witnesses.push(Witness {
             first_contact: self.contacts.len(),
             ..*witness
@@ -322,6 +370,16 @@ impl WitnessList {
 }
 
 impl Witness {
+    /// The link that moves the r-side, and the one that moves the s-side, if one does.
+    pub(super) fn links(&self) -> (usize, Option<usize>) {
+        (self.r_link, self.s_side.link().or(self.s_carrier))
+    }
+
+    /// Where its contacts stand in the list.
+    fn contacts(&self) -> Range<usize> {
+        self.first_contact..self.first_contact + self.contact_count
+    }
+
     /// A witness without contacts, which are added later.
     #[inline(always)]
     pub(super) fn of(parties: &Parties, hit: &Hit, leaf: Leaf) -> Self {
@@ -360,21 +418,22 @@ impl ContactRecord {
     }
 }
 
-/// Appends one row: the derivative of the distance of a contact of the two links' bodies, eq. (39). Both witness points are those at the configuration.
+/// Appends one row: the derivative of the distance of two links' bodies along a normal, eq. (39). Both witness points are those at the
+/// configuration.
 pub(super) fn push_gradient(
     space: &Space,
     state: RobotState,
     (r_link, s_link): (usize, Option<usize>),
-    contact: &ContactRecord,
+    normal: &Vec3,
+    [on_r, on_s]: &[Vec3; 2],
     rows: &mut Vec<f64>,
 ) -> Result<()> {
     let first = rows.len();
     rows.resize(first + space.nv(), 0.0);
     let row = &mut rows[first..];
-    let [on_r, on_s] = &contact.points;
-    space.add_gradient(state, r_link, on_r, &contact.normal, row)?;
+    space.add_gradient(state, r_link, on_r, normal, row)?;
     if let Some(s) = s_link {
-        space.add_gradient(state, s, on_s, &-contact.normal, row)?;
+        space.add_gradient(state, s, on_s, &-normal, row)?;
     }
     Ok(())
 }

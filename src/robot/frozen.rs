@@ -116,11 +116,6 @@ impl Robot {
         Ok(whole.kept.iter().map(|&c| q[c]).collect())
     }
 
-    /// The number of coordinates of the robot that this one was made from.
-    pub fn whole_nq(&self) -> Result<usize> {
-        Ok(self.required_whole()?.rest.len())
-    }
-
     fn required_whole(&self) -> Result<&Whole> {
         self.whole().ok_or_else(|| {
             Error::new(

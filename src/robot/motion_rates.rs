@@ -1,6 +1,6 @@
 //! Bounds of how fast links move on a motion.
 
-use super::course::CourseBounds;
+use super::course::{CourseBounds, curve_rounding};
 use crate::pose::{Pose, Vec3, turned_back};
 use crate::tolerance::{DISTANCE_ERROR, EPSILON};
 
@@ -30,6 +30,8 @@ pub struct ChainRounding {
     pub angle: f64,
     /// The sum over all turns of the bounds of their speeds.
     pub turning: f64,
+    /// The highest degree of the curves along which it turns and shifts, or 0.
+    pub degree: f64,
 }
 
 impl ChainRounding {
@@ -39,6 +41,13 @@ impl ChainRounding {
         self.size += other.size;
         self.angle = self.angle.max(other.angle);
         self.turning += other.turning;
+        self.degree = self.degree.max(other.degree);
+    }
+
+    /// Takes in an element that moves by a course within bounds.
+    fn take_in_course(&mut self, bounds: &CourseBounds) {
+        self.elements += 1.0;
+        self.degree = self.degree.max(bounds.degree);
     }
 
     /// What the rounding of a pose may move a point within `radius` of the frame's origin, and what that of velocities and accelerations
@@ -49,10 +58,12 @@ impl ChainRounding {
     /// moves all that comes after, so a point is off by at most n (10 + 2 a) epsilon times the sum s of all lengths. The relative pose of
     /// two bodies and their support points take 32 epsilon s more, what classes measure twice [`DISTANCE_ERROR`]. A velocity is a sum over the
     /// turns of their speeds times arms that are off by as much: over a time in which these turn by T together it adds T times that,
-    /// and an acceleration T^2 times.
+    /// and an acceleration T^2 times. Along curves angles and shifts are off by more: see [`curve_rounding`].
     pub fn of_places(&self, radius: f64, reach: f64) -> f64 {
         let turned = reach * self.turning;
-        let relative = 32.0 + self.elements * (10.0 + 2.0 * self.angle);
+        let on_curves = curve_rounding(self.degree, reach);
+        let of_angles = self.elements * self.angle * (2.0 + on_curves);
+        let relative = 32.0 + 10.0 * self.elements + of_angles + on_curves;
         let relative = 2.0 * DISTANCE_ERROR + relative * EPSILON;
         let moved = relative * (self.size + radius) * (1.0 + turned * (1.0 + turned));
         // Of speeds that overflow nothing is known, and no comparison with what is no number may prune.
@@ -102,14 +113,14 @@ impl ChainRates {
         let [s1, s2, s3] = self.angles;
         self.rates.turn = [s1, s1 * s1 + s2, s1 * s1 * s1 + 3.0 * s1 * s2 + s3];
         let rounding = &mut self.rates.rounding;
-        rounding.elements += 1.0;
+        rounding.take_in_course(bounds);
         rounding.angle = rounding.angle.max(bounds.summed);
         rounding.turning = s1;
     }
 
     /// Goes on behind a shift along a unit axis.
     pub(super) fn push_shift(&mut self, axis: &Vec3, bounds: &CourseBounds) {
-        self.rates.rounding.elements += 1.0;
+        self.rates.rounding.take_in_course(bounds);
         self.carry(axis, bounds);
     }
 

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::glb::{Colour, Document};
 use super::shapes::of_body;
 use crate::body::Body;
-use crate::cobject::{BodyPairs, CObject};
+use crate::cobject::{BodyPairs, CObject, LinksAndObjects};
 use crate::pose::Pose;
 use crate::query::World;
 
@@ -75,7 +75,7 @@ pub fn shown_bodies(world: &World, cobject: &CObject, document: &mut Document) -
     }
     let mut drawn = HashSet::new();
     for term in cobject.induced_leaves() {
-        let BodyPairs::Objects { objects: set, .. } = &term.pairs else {
+        let BodyPairs::Objects(LinksAndObjects { objects: set, .. }) = &term.pairs else {
             continue;
         };
         let Some(snapshot) = world.snapshot(set.environment()) else {

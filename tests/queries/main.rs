@@ -23,6 +23,7 @@ mod moving_deviations;
 mod object_pairs;
 mod octomap_files;
 mod octrees;
+mod placed_octrees;
 mod point_bodies;
 mod pure_sets;
 mod pure_sets_among_others;

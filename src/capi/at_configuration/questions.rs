@@ -4,12 +4,11 @@ use crate::capi::at_configuration::answers::{cstk_class, cstk_distance_result, c
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::cobject::cobject::cstk_cobject;
 use crate::capi::handle;
-use crate::capi::input::{Output, OutputSlice, slice};
+use crate::capi::input::{Output, OutputSlice, require_width, slice};
 use crate::capi::query::{State, cstk_query, with_query};
 use crate::capi::robot::robot::read_poses;
 use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
-use crate::error::{Error, ErrorKind};
 use crate::pose::Pose;
 use crate::query::{Configuration, Shell};
 use crate::space::Space;
@@ -249,11 +248,7 @@ pub unsafe extern "C" fn cstk_distance_with_gradient(
         || unsafe { slice(q, nq, "q") },
         out,
         |state, cobject, q| {
-            let expected = cobject.space().nv();
-            if nv != expected {
-                let message = format!("nv is {nv}; the space has {expected} velocities");
-                return Err(Error::new(ErrorKind::WrongSize, message).into());
-            }
+            require_width(nv, cobject.space().nv(), "nv", "velocities")?;
             let gradient = OutputSlice::checked(gradient, nv, "gradient")?;
             let row = &mut state.row;
             let context = &mut state.context;

@@ -10,7 +10,7 @@ use crate::capi::at_configuration::answers::{cstk_class, cstk_distance_result};
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::cobject::cobject::cstk_cobject;
 use crate::capi::handle;
-use crate::capi::input::numbers;
+use crate::capi::input::{numbers, require_width};
 use crate::capi::status::callbacks::cstk_progress_fn;
 use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
@@ -30,14 +30,6 @@ pub(super) unsafe fn configurations<'a>(
     // SAFETY: as the caller states.
     let q = unsafe { numbers(q, count, nq, argument)? };
     Ok(Configurations { q, count })
-}
-
-fn require_width(given: usize, expected: usize, name: &str, what: &str) -> Result<(), Failure> {
-    if given == expected {
-        return Ok(());
-    }
-    let message = format!("{name} is {given}, but the space has {expected} {what}");
-    Err(Error::new(ErrorKind::WrongSize, message).into())
 }
 
 /// cstk_classify for `count` configurations: `q` has count * nq doubles, one configuration after the other. `options` may be NULL for

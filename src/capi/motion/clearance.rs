@@ -1,11 +1,10 @@
 //! The least distance along a motion.
 
-use super::motion::optional_configuration;
 use crate::capi::at_configuration::answers::cstk_distance_result;
 use crate::capi::boundary::guard;
 use crate::capi::cobject::cobject::cstk_cobject;
 use crate::capi::handle;
-use crate::capi::input::{OptionsStruct, Output, options, slice, write_defaults};
+use crate::capi::input::{OptionsStruct, Output, OutputSlice, options, slice, write_defaults};
 use crate::capi::query::{cstk_query, with_query};
 use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
@@ -119,12 +118,10 @@ pub unsafe extern "C" fn cstk_motion_clearance(
                     options(clearance_options, "clearance_options")?,
                 )
             };
-            let nearest = optional_configuration(nearest, nq, "nearest")?;
+            let nearest = OutputSlice::optional(nearest, nq, "nearest")?;
             let context = &mut state.context;
             let found = context.motion_clearance(&cobject, q0, q1, &given.into())?;
-            if let Some(nearest) = nearest {
-                nearest.write(&found.configuration);
-            }
+            nearest.write(&found.configuration);
             out.write((&found).into());
             Ok(())
         })

@@ -1,14 +1,12 @@
 //! Curves through C-space.
 
-use super::motion::{cstk_motion_options, cstk_motion_result, optional_configuration};
+use super::motion::{ask_motion, cstk_motion_options, cstk_motion_result};
 use super::path::size;
 use crate::capi::boundary::guard;
 use crate::capi::cobject::cobject::cstk_cobject;
-use crate::capi::handle;
-use crate::capi::input::{Output, options_or_default, slice};
-use crate::capi::query::{cstk_query, with_query};
+use crate::capi::input::slice;
+use crate::capi::query::cstk_query;
 use crate::capi::status::status::cstk_status;
-use crate::cobject::CObject;
 use crate::motion::Spline;
 
 /// Proves that the motion on a Bezier curve keeps clear of a C-object, or finds its first contact, as cstk_motion does on a segment.
@@ -28,25 +26,14 @@ pub unsafe extern "C" fn cstk_motion_curve(
     out: *mut cstk_motion_result,
 ) -> cstk_status {
     guard(|| {
-        with_query(query, |state| {
-            let cobject = handle::share::<CObject>(cobject, "cobject")?;
-            let out = Output::checked(out, "out")?;
-            let numbers = size(&cobject, count, nq)?;
-            // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
-            let (points, options) = unsafe {
-                (
-                    slice(points, numbers, "points")?,
-                    options_or_default(options, "options")?,
-                )
-            };
-            let reached = optional_configuration(reached, nq, "reached")?;
-            let context = &mut state.context;
-            let answer = context.motion_on_curve(&cobject, points, &options.into())?;
-            if let Some(reached) = reached {
-                reached.write(&answer.configuration);
-            }
-            out.write((&answer).into());
-            Ok(())
+        ask_motion(query, cobject, nq, options, reached, out, |asked| {
+            let numbers = size(asked.cobject, count, nq)?;
+            // SAFETY: checked for NULL; the caller states the length.
+            let points = unsafe { slice(points, numbers, "points")? };
+            let context = asked.context;
+            let answer = context.motion_on_curve(asked.cobject, points, &asked.options)?;
+            let result = (&answer).into();
+            Ok((answer.configuration, result))
         })
     })
 }
@@ -70,16 +57,13 @@ pub unsafe extern "C" fn cstk_motion_spline(
     out: *mut cstk_motion_result,
 ) -> cstk_status {
     guard(|| {
-        with_query(query, |state| {
-            let cobject = handle::share::<CObject>(cobject, "cobject")?;
-            let out = Output::checked(out, "out")?;
-            let numbers = size(&cobject, count, nq)?;
-            // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
-            let (points, knots, options) = unsafe {
+        ask_motion(query, cobject, nq, options, reached, out, |asked| {
+            let numbers = size(asked.cobject, count, nq)?;
+            // SAFETY: checked for NULL; the caller states the lengths.
+            let (points, knots) = unsafe {
                 (
                     slice(points, numbers, "points")?,
                     slice(knots, knot_count, "knots")?,
-                    options_or_default(options, "options")?,
                 )
             };
             let spline = Spline {
@@ -87,14 +71,10 @@ pub unsafe extern "C" fn cstk_motion_spline(
                 knots,
                 points,
             };
-            let reached = optional_configuration(reached, nq, "reached")?;
-            let context = &mut state.context;
-            let answer = context.motion_on_spline(&cobject, &spline, &options.into())?;
-            if let Some(reached) = reached {
-                reached.write(&answer.configuration);
-            }
-            out.write((&answer).into());
-            Ok(())
+            let context = asked.context;
+            let answer = context.motion_on_spline(asked.cobject, &spline, &asked.options)?;
+            let result = (&answer).into();
+            Ok((answer.configuration, result))
         })
     })
 }

@@ -2,15 +2,13 @@
 
 use std::ffi::c_void;
 
-use super::motion::{cstk_motion_options, cstk_motion_result, optional_configuration};
+use super::motion::{ask_motion, cstk_motion_options, cstk_motion_result};
 use super::path::size;
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::cobject::cobject::cstk_cobject;
-use crate::capi::handle;
-use crate::capi::input::{Output, options_or_default, slice};
-use crate::capi::query::{cstk_query, with_query};
+use crate::capi::input::slice;
+use crate::capi::query::cstk_query;
 use crate::capi::status::status::cstk_status;
-use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result};
 use crate::motion::{MotionBounds, MotionFunction, MotionMoment};
 
@@ -53,32 +51,25 @@ pub unsafe extern "C" fn cstk_motion_function(
     out: *mut cstk_motion_result,
 ) -> cstk_status {
     guard(|| {
-        with_query(query, |state| {
-            let cobject = handle::share::<CObject>(cobject, "cobject")?;
-            let out = Output::checked(out, "out")?;
+        ask_motion(query, cobject, nq, options, reached, out, |asked| {
             let function = Function::checked(function, user)?;
-            let numbers = size(&cobject, 1, nq)?;
-            // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
-            let (max_rates, max_accelerations, options) = unsafe {
+            let numbers = size(asked.cobject, 1, nq)?;
+            // SAFETY: checked for NULL; the caller states the lengths.
+            let (max_rates, max_accelerations) = unsafe {
                 (
                     slice(max_rates, numbers, "max_rates")?,
                     slice(max_accelerations, numbers, "max_accelerations")?,
-                    options_or_default(options, "options")?,
                 )
             };
             let bounds = &MotionBounds {
                 max_rates,
                 max_accelerations,
             };
-            let reached = optional_configuration(reached, nq, "reached")?;
-            let context = &mut state.context;
+            let context = asked.context;
             let answer =
-                context.motion_on_function(&cobject, &function, bounds, &options.into())?;
-            if let Some(reached) = reached {
-                reached.write(&answer.configuration);
-            }
-            out.write((&answer).into());
-            Ok(())
+                context.motion_on_function(asked.cobject, &function, bounds, &asked.options)?;
+            let result = (&answer).into();
+            Ok((answer.configuration, result))
         })
     })
 }

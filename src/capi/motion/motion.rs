@@ -11,7 +11,7 @@ use crate::capi::query::{cstk_query, with_query};
 use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
 use crate::motion::{MotionAnswer, MotionOptions, MotionOutcome};
-use crate::query::Distance;
+use crate::query::{Distance, QueryContext};
 
 /// Options of a motion. Write it with cstk_motion_options_default first.
 #[repr(C)]
@@ -113,37 +113,51 @@ pub unsafe extern "C" fn cstk_motion(
     out: *mut cstk_motion_result,
 ) -> cstk_status {
     guard(|| {
-        with_query(query, |state| {
-            let cobject = handle::share::<CObject>(cobject, "cobject")?;
-            let out = Output::checked(out, "out")?;
-            // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
-            let (q0, q1, given) = unsafe {
-                (
-                    slice(q0, nq, "q0")?,
-                    slice(q1, nq, "q1")?,
-                    options_or_default(options, "options")?,
-                )
-            };
-            let reached = optional_configuration(reached, nq, "reached")?;
-            let answer = state.context.motion(&cobject, q0, q1, &given.into())?;
-            if let Some(reached) = reached {
-                reached.write(&answer.configuration);
-            }
-            out.write((&answer).into());
-            Ok(())
+        ask_motion(query, cobject, nq, options, reached, out, |asked| {
+            // SAFETY: checked for NULL; the caller states the lengths.
+            let (q0, q1) = unsafe { (slice(q0, nq, "q0")?, slice(q1, nq, "q1")?) };
+            let answer = asked
+                .context
+                .motion(asked.cobject, q0, q1, &asked.options)?;
+            let result = (&answer).into();
+            Ok((answer.configuration, result))
         })
     })
 }
 
-/// The destination of a configuration that the caller may leave out.
-pub(in crate::capi) fn optional_configuration(
-    out: *mut f64,
+/// What a call about a motion asks with.
+pub(in crate::capi) struct AskedMotion<'a> {
+    pub context: &'a mut QueryContext,
+    pub cobject: &'a CObject,
+    pub options: MotionOptions,
+}
+
+/// A call about a motion: `ask` gives the configuration reached and the result.
+pub(in crate::capi) fn ask_motion<R>(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
     nq: usize,
-    argument: &str,
-) -> Result<Option<OutputSlice<f64>>, Failure> {
-    (!out.is_null())
-        .then(|| OutputSlice::checked(out, nq, argument))
-        .transpose()
+    options: *const cstk_motion_options,
+    reached: *mut f64,
+    out: *mut R,
+    ask: impl FnOnce(AskedMotion) -> Result<(Vec<f64>, R), Failure>,
+) -> Result<(), Failure> {
+    with_query(query, |state| {
+        let cobject = &*handle::share::<CObject>(cobject, "cobject")?;
+        let out = Output::checked(out, "out")?;
+        // SAFETY: checked for size and cookie.
+        let options = unsafe { options_or_default(options, "options")? }.into();
+        let reached = OutputSlice::optional(reached, nq, "reached")?;
+        let context = &mut state.context;
+        let (configuration, result) = ask(AskedMotion {
+            context,
+            cobject,
+            options,
+        })?;
+        reached.write(&configuration);
+        out.write(result);
+        Ok(())
+    })
 }
 
 impl From<cstk_motion_options> for MotionOptions {

@@ -43,9 +43,7 @@ pub unsafe extern "C" fn cstk_pair_motion(
                     options_or_default(options, "options")?,
                 )
             };
-            let reached = (!reached.is_null())
-                .then(|| OutputSlice::checked(reached, 24, "reached"))
-                .transpose()?;
+            let reached = OutputSlice::optional(reached, 24, "reached")?;
             let [moving_a, moving_b] =
                 [(&a, &poses_a), (&b, &poses_b)].map(|(body, poses)| PairMotion {
                     body,
@@ -54,9 +52,7 @@ pub unsafe extern "C" fn cstk_pair_motion(
             let context = &mut state.context;
             let answer = context.pair_motion(&moving_a, &moving_b, &options.into())?;
             let rows = answer.configuration.map(|pose| pose.to_row_major());
-            if let Some(reached) = reached {
-                reached.write(&rows.concat());
-            }
+            reached.write(&rows.concat());
             out.write((&answer).into());
             Ok(())
         })

@@ -2,12 +2,11 @@
 
 use std::ffi::c_void;
 
-use super::motion::{cstk_motion_options, cstk_motion_result, optional_configuration};
+use super::motion::{ask_motion, cstk_motion_options, cstk_motion_result};
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::cobject::cobject::cstk_cobject;
-use crate::capi::handle;
-use crate::capi::input::{Output, options_or_default, slice};
-use crate::capi::query::{cstk_query, with_query};
+use crate::capi::input::{require_width, slice};
+use crate::capi::query::cstk_query;
 use crate::capi::status::callbacks::{cstk_progress_fn, reporter};
 use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
@@ -65,26 +64,15 @@ pub unsafe extern "C" fn cstk_motion_path(
     out: *mut cstk_path_result,
 ) -> cstk_status {
     guard(|| {
-        with_query(query, |state| {
-            let cobject = handle::share::<CObject>(cobject, "cobject")?;
-            let out = Output::checked(out, "out")?;
-            let numbers = size(&cobject, point_count, nq)?;
-            // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
-            let (points, options) = unsafe {
-                (
-                    slice(points, numbers, "points")?,
-                    options_or_default(options, "options")?,
-                )
-            };
-            let reached = optional_configuration(reached, nq, "reached")?;
+        ask_motion(query, cobject, nq, options, reached, out, |asked| {
+            let numbers = size(asked.cobject, point_count, nq)?;
+            // SAFETY: checked for NULL; the caller states the length.
+            let points = unsafe { slice(points, numbers, "points")? };
             let mut report = reporter(progress, user);
-            let context = &mut state.context;
-            let answer = context.motion_path(&cobject, points, &options.into(), &mut report)?;
-            if let Some(reached) = reached {
-                reached.write(&answer.motion.configuration);
-            }
-            out.write((&answer).into());
-            Ok(())
+            let context = asked.context;
+            let answer = context.motion_path(asked.cobject, points, &asked.options, &mut report)?;
+            let result = (&answer).into();
+            Ok((answer.motion.configuration, result))
         })
     })
 }
@@ -101,13 +89,8 @@ impl From<&PathAnswer> for cstk_path_result {
 
 /// How many numbers the points have.
 pub(in crate::capi) fn size(cobject: &CObject, count: usize, nq: usize) -> Result<usize, Failure> {
+    require_width(nq, cobject.space().nq(), "nq", "coordinates")?;
     let wrong = |message: String| Err(Error::new(ErrorKind::WrongSize, message).into());
-    let expected = cobject.space().nq();
-    if nq != expected {
-        return wrong(format!(
-            "nq is {nq}, but the space has {expected} coordinates"
-        ));
-    }
     if count == 0 {
         return wrong("count is 0: there is at least one point".to_string());
     }

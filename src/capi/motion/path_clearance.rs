@@ -3,12 +3,11 @@
 use std::ffi::c_void;
 
 use super::clearance::{cstk_clearance_options, cstk_clearance_result};
-use super::motion::optional_configuration;
 use super::path::size;
 use crate::capi::boundary::guard;
 use crate::capi::cobject::cobject::cstk_cobject;
 use crate::capi::handle;
-use crate::capi::input::{Output, options, slice};
+use crate::capi::input::{Output, OutputSlice, options, slice};
 use crate::capi::query::{cstk_query, with_query};
 use crate::capi::status::callbacks::{cstk_progress_fn, reporter};
 use crate::capi::status::status::cstk_status;
@@ -65,13 +64,11 @@ pub unsafe extern "C" fn cstk_path_clearance(
                     options(clearance_options, "clearance_options")?,
                 )
             };
-            let nearest = optional_configuration(nearest, nq, "nearest")?;
+            let nearest = OutputSlice::optional(nearest, nq, "nearest")?;
             let mut report = reporter(progress, user);
             let context = &mut state.context;
             let found = context.path_clearance(&cobject, points, &given.into(), &mut report)?;
-            if let Some(nearest) = nearest {
-                nearest.write(&found.clearance.configuration);
-            }
+            nearest.write(&found.clearance.configuration);
             out.write(cstk_path_clearance_result {
                 segment: found.segment,
                 clearance: (&found.clearance).into(),

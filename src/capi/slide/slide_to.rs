@@ -6,7 +6,7 @@ use super::slide::cstk_slide_options;
 use crate::capi::boundary::guard;
 use crate::capi::cobject::cobject::cstk_cobject;
 use crate::capi::handle;
-use crate::capi::input::{self, OptionsStruct, Output, null, slice, write_defaults};
+use crate::capi::input::{self, OptionsStruct, Output, optional_slice, slice, write_defaults};
 use crate::capi::motion::path::cstk_path;
 use crate::capi::query::{cstk_query, with_query};
 use crate::capi::status::callbacks::{cstk_progress_fn, reporter};
@@ -148,15 +148,8 @@ pub unsafe extern "C" fn cstk_slide_to(
                     input::options(options, "options")?,
                 )
             };
-            if weights.is_null() && nv > 0 {
-                return Err(null("weights"));
-            }
-            let weights = if weights.is_null() {
-                None
-            } else {
-                // SAFETY: not NULL; the caller states the length.
-                Some(unsafe { slice(weights, nv, "weights")? })
-            };
+            // SAFETY: checked for NULL; the caller states the length.
+            let weights = unsafe { optional_slice(weights, nv, "weights")? };
             let count = |count: u64| usize::try_from(count).unwrap_or(usize::MAX);
             let options = SlideToOptions {
                 slide: steps.into(),

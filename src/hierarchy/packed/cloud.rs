@@ -4,7 +4,7 @@
 use std::time::Instant;
 
 use super::packed_tree::PackedTree;
-use super::wide_plans::{SetTree, wide_nodes};
+use super::wide_plans::{LeafSets, wide_nodes};
 use crate::boxes::{ChildPoints, fitted_axes, simply_fitted_axes};
 use crate::error::Result;
 use crate::hierarchy::grouping::{Groups, PointGroups, PointSet};
@@ -105,7 +105,7 @@ struct CloudSets<'a> {
     radii: Radii,
 }
 
-impl SetTree for CloudSets<'_> {
+impl LeafSets for CloudSets<'_> {
     type Set = PointSet;
 
     fn whole(&self) -> PointSet {

@@ -1,5 +1,6 @@
 //! The packed tree that queries traverse: up to eight children per node, packed boxes, the primitives in leaf order.
 
+mod binary_sets;
 mod cloud;
 mod eight_below;
 mod packed_groups;

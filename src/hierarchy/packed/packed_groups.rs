@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::eight_below::Cuts;
+use super::binary_sets::{AtLeaves, BinarySets};
 use super::packed_tree::PackedTree;
-use super::wide_plans::{SetTree, wide_nodes};
+use super::wide_plans::wide_nodes;
 use crate::boxes::{ChildPoints, Extent, fitted_axes};
 use crate::error::Result;
 use crate::hierarchy::{Ball, Node, Progress, SubsetTree, few_extremes};
@@ -28,14 +28,12 @@ pub fn pack_groups(
     let points = LeafPoints::new(primitives, &packed);
     progress.at(0.1)?;
     let radii = radii(subsets, &points);
-    let grouped = GroupSets {
-        cuts: Cuts::of(subsets, |node| radii[node as usize]),
-        sizes: subsets.sizes(),
+    let at_leaves = GroupedPrimitives {
         packed: &packed,
         primitives,
-        subsets,
         points,
     };
+    let grouped = BinarySets::new(subsets, |node| radii[node as usize], at_leaves);
     drop(radii);
     progress.at(0.2)?;
     let nodes = wide_nodes(&grouped, threads, &mut progress.part(0.2, 1.0))?;
@@ -106,58 +104,15 @@ pub fn radii(subsets: &SubsetTree, points: &LeafPoints) -> Vec<f64> {
     radii
 }
 
-/// The set tree of grouped primitives.
-struct GroupSets<'a> {
-    cuts: Cuts,
-    /// Number of nodes of each subtree.
-    sizes: Vec<u32>,
+/// Primitives, leaf by leaf.
+struct GroupedPrimitives<'a> {
     packed: &'a PackedTree,
     primitives: &'a Primitives,
-    subsets: &'a SubsetTree,
     points: LeafPoints,
 }
 
-/// A node of the binary tree, and its first leaf.
-#[derive(Clone, Copy)]
-struct Group {
-    node: u32,
-    first_leaf: usize,
-}
-
-impl GroupSets<'_> {
-    fn leaves(&self, group: &Group) -> Range<usize> {
-        let count = (self.sizes[group.node as usize] as usize).div_ceil(2);
-        group.first_leaf..group.first_leaf + count
-    }
-}
-
-impl SetTree for GroupSets<'_> {
-    type Set = Group;
-
-    fn whole(&self) -> Group {
-        Group {
-            node: 0,
-            first_leaf: 0,
-        }
-    }
-
-    fn is_leaf(&self, group: &Group) -> bool {
-        self.sizes[group.node as usize] == 1
-    }
-
-    fn below(&self, group: &Group) -> Vec<Group> {
-        let mut first_leaf = group.first_leaf;
-        let nodes = self.cuts.below(self.subsets, group.node);
-        let groups = nodes.into_iter().map(|node| {
-            let group = Group { node, first_leaf };
-            first_leaf = self.leaves(&group).end;
-            group
-        });
-        groups.collect()
-    }
-
-    fn child_points(&self, group: &Group) -> ChildPoints<'_> {
-        let leaves = self.leaves(group);
+impl AtLeaves for GroupedPrimitives<'_> {
+    fn child_points(&self, leaves: Range<usize>) -> ChildPoints<'_> {
         let points = self.points.of(leaves.clone());
         let axes = if points.len() > MAX_FITTED {
             fitted_axes(&few_extremes(points), None)

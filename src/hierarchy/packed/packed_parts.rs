@@ -3,10 +3,10 @@
 
 use std::ops::Range;
 
-use super::eight_below::Cuts;
+use super::binary_sets::{AtLeaves, BinarySets};
 use super::packed_groups::{LeafPoints, radii};
 use super::packed_tree::{NodeRef, PackedTree};
-use super::wide_plans::{SetTree, wide_nodes};
+use super::wide_plans::wide_nodes;
 use crate::boxes::{AxisSpans, BoxMotion, ChildPoints, WideNode, fitted_axes};
 use crate::error::Result;
 use crate::hierarchy::{Ball, Progress, SubsetTree, few_extremes};
@@ -44,7 +44,9 @@ pub fn pack_parts(
     let mut packed = PackedTree::empty(ball);
     let unit = 1.0 / packed.scale();
     let motions: Vec<BoxMotion> = parts.iter().map(|part| part.motion(unit)).collect();
-    let sets = TopSets::new(primitives, top, leaves, parts, &motions, unit);
+    let at_leaves = TopLeaves::new(primitives, leaves, parts, &motions, unit);
+    let radii = radii(top, &at_leaves.points);
+    let sets = BinarySets::new(top, |node| radii[node as usize], at_leaves);
     packed.nodes = wide_nodes(&sets, 1, &mut progress.part(0.0, 0.2))?;
     let top_nodes = packed.nodes.len();
     // The leaves of the top nodes are numbered in order; now they become places and the parts' nodes.
@@ -144,11 +146,8 @@ impl PackedTree {
     }
 }
 
-/// The set tree over parts and single primitives.
-struct TopSets<'a> {
-    cuts: Cuts,
-    sizes: Vec<u32>,
-    top: &'a SubsetTree,
+/// Parts and single primitives, leaf by leaf.
+struct TopLeaves<'a> {
     leaves: &'a [TopLeaf],
     primitives: &'a Primitives,
     points: LeafPoints,
@@ -156,17 +155,9 @@ struct TopSets<'a> {
     boxes: Vec<(Mat3, [Vec3; 8])>,
 }
 
-/// A node of the top tree, and its first leaf.
-#[derive(Clone, Copy)]
-struct TopSet {
-    node: u32,
-    first_leaf: usize,
-}
-
-impl<'a> TopSets<'a> {
+impl<'a> TopLeaves<'a> {
     fn new(
         primitives: &'a Primitives,
-        top: &'a SubsetTree,
         leaves: &'a [TopLeaf],
         parts: &[PackedPart],
         motions: &[BoxMotion],
@@ -179,12 +170,8 @@ impl<'a> TopSets<'a> {
                 points.extend(primitive.bounding_points().map(|point| point * unit));
             }
         });
-        let radii = radii(top, &points);
         let boxes = parts.iter().zip(motions);
         Self {
-            cuts: Cuts::of(top, |node| radii[node as usize]),
-            sizes: top.sizes(),
-            top,
             leaves,
             primitives,
             points,
@@ -193,40 +180,10 @@ impl<'a> TopSets<'a> {
                 .collect(),
         }
     }
-
-    fn leaves(&self, set: &TopSet) -> Range<usize> {
-        let count = (self.sizes[set.node as usize] as usize).div_ceil(2);
-        set.first_leaf..set.first_leaf + count
-    }
 }
 
-impl SetTree for TopSets<'_> {
-    type Set = TopSet;
-
-    fn whole(&self) -> TopSet {
-        TopSet {
-            node: 0,
-            first_leaf: 0,
-        }
-    }
-
-    fn is_leaf(&self, set: &TopSet) -> bool {
-        self.sizes[set.node as usize] == 1
-    }
-
-    fn below(&self, set: &TopSet) -> Vec<TopSet> {
-        let mut first_leaf = set.first_leaf;
-        let nodes = self.cuts.below(self.top, set.node);
-        let sets = nodes.into_iter().map(|node| {
-            let set = TopSet { node, first_leaf };
-            first_leaf = self.leaves(&set).end;
-            set
-        });
-        sets.collect()
-    }
-
-    fn child_points(&self, set: &TopSet) -> ChildPoints<'_> {
-        let leaves = self.leaves(set);
+impl AtLeaves for TopLeaves<'_> {
+    fn child_points(&self, leaves: Range<usize>) -> ChildPoints<'_> {
         let points = self.points.of(leaves.clone());
         let (axes, points) = match self.leaves[leaves.start] {
             _ if leaves.len() > 1 => (fitted_axes(&few_extremes(points), None), points),

@@ -2,7 +2,7 @@
 
 use super::eight_below::Cuts;
 use super::packed_tree::PackedTree;
-use super::wide_plans::{SetTree, wide_nodes};
+use super::wide_plans::{LeafSets, wide_nodes};
 use crate::boxes::{ChildPoints, fitted_axes};
 use crate::error::Result;
 use crate::hierarchy::wrapper::WrapperTree;
@@ -38,7 +38,7 @@ struct WrapperSets<'a> {
     unit: f64,
 }
 
-impl SetTree for WrapperSets<'_> {
+impl LeafSets for WrapperSets<'_> {
     type Set = u32;
 
     fn whole(&self) -> u32 {

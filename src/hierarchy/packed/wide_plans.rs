@@ -8,8 +8,8 @@ use crate::hierarchy::{Progress, parallel};
 /// Number of wide nodes that are one task of a thread.
 const TASK: usize = 256;
 
-/// A tree of sets: a set is one leaf, or has up to eight child sets.
-pub trait SetTree: Sync {
+/// A tree of sets of leaves: a set is one leaf, or has up to eight child sets.
+pub trait LeafSets: Sync {
     type Set: Clone + Sync;
 
     fn whole(&self) -> Self::Set;
@@ -31,7 +31,7 @@ struct Plan<Set> {
 }
 
 /// The wide nodes of a tree, each before its children; the first has one child, the root. Leaves are numbered in order.
-pub fn wide_nodes<T: SetTree>(
+pub fn wide_nodes<T: LeafSets>(
     tree: &T,
     threads: usize,
     progress: &mut Progress,
@@ -48,7 +48,7 @@ pub fn wide_nodes<T: SetTree>(
     Ok(nodes)
 }
 
-fn plans<T: SetTree>(tree: &T) -> Vec<Plan<T::Set>> {
+fn plans<T: LeafSets>(tree: &T) -> Vec<Plan<T::Set>> {
     let mut plans = vec![Plan {
         children: vec![tree.whole()],
         links: [0; 8],
@@ -74,7 +74,7 @@ fn plans<T: SetTree>(tree: &T) -> Vec<Plan<T::Set>> {
     plans
 }
 
-fn fit<T: SetTree>(tree: &T, plan: &Plan<T::Set>) -> WideNode {
+fn fit<T: LeafSets>(tree: &T, plan: &Plan<T::Set>) -> WideNode {
     let points: Vec<ChildPoints> = plan
         .children
         .iter()
