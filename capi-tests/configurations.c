@@ -184,6 +184,8 @@ static void circles(const cstk_space *space) {
     CHECK(near(found, v, 3, 1e-14));
     CHECK_OK(cstk_space_difference(space, opposite, q0, 3, found));
     CHECK(fabs(found[0] + half_turn) < 1e-15);
+    CHECK_OK(cstk_space_difference(space, q0, opposite, 3, found));
+    CHECK(fabs(found[0] - half_turn) < 1e-15);
     /* Steps do not wrap. */
     CHECK_OK(cstk_space_step(space, q0, 3, v, 3, found));
     CHECK(found[0] < 0.0);

@@ -42,3 +42,16 @@ fn silence_contained_panics() {
         }));
     });
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_comes_back_as_an_error() {
+        assert_eq!(contained(|| 7).unwrap(), 7);
+        let error = contained(|| panic!("deliberate {}", 7)).unwrap_err();
+        assert_eq!(error.kind, ErrorKind::Internal);
+        assert_eq!(error.message, "internal fault: deliberate 7");
+    }
+}

@@ -21,6 +21,9 @@ pub mod error;
 // Panics of the library's own code become errors, and are not printed.
 mod contained;
 
+// Objects that serve one call at a time.
+mod exclusive;
+
 // Addresses of the caller's that answers hand back.
 #[doc(hidden)]
 pub mod user_data;
@@ -147,4 +150,5 @@ pub mod show;
 
 // The C API: converts, checks, calls; one folder or file a section of the header.
 #[doc(hidden)]
+#[cfg(not(test))]
 pub mod capi;

@@ -127,6 +127,15 @@ void a_projection_is_where_the_link_is(const Problem &problem) {
     expect(found[0] == pose[3] && found[1] == pose[7] && found[2] == pose[11], "the projection of " + problem.scene);
 }
 
+void a_default_projection_is_kept(const Problem &problem) {
+    const auto space = std::make_shared<cstk_ompl::StateSpace>(problem.workcell->space);
+    const auto last = static_cast<std::uint32_t>(space->space().link_count() - 1);
+    const auto projection = std::make_shared<cstk_ompl::LinkProjection>(*space, last, 0.1);
+    space->registerDefaultProjection(projection);
+    space->setup();
+    expect(space->getDefaultProjection() == projection, "the default projection of " + problem.scene + " is kept");
+}
+
 void rrt_connect_finds_a_free_path(const Problem &problem) {
     const problems::Workcell &cell = *problem.workcell;
     const auto setup = proved_setup(problem);
@@ -225,6 +234,7 @@ int main(int count, char **arguments) {
             motions_are_as_their_samples_say(problem);
             the_clearance_of_a_motion_is_the_least_distance_of_its_samples(problem);
             a_projection_is_where_the_link_is(problem);
+            a_default_projection_is_kept(problem);
             rrt_connect_finds_a_free_path(problem);
         }
         return 0;

@@ -2,19 +2,24 @@
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace rrt_connect {
 
 namespace {
 
-/// The tree grows from its nearest node towards q, by one edge of at most `range`. Returns the node it came to.
+/// The tree grows from its nearest node towards q, by one edge of at most `range`. Returns the node it came to; none where it meets
+/// something, or where the edge is lost in rounding.
 std::optional<std::size_t> extend(Tree &tree, const Nearest &nearest, const Configuration &q, const cstk::Space &space,
                                   EdgeProver &edges, double range) {
     const Configuration &from = tree.at(nearest.node);
+    if (from == q) {
+        return nearest.node;
+    }
     const Configuration end =
         nearest.distance > range ? space.interpolate(from, q, range / nearest.distance) : q;
-    if (!edges.is_free(from, end)) {
+    if (end == from || !edges.is_free(from, end)) {
         return {};
     }
     return tree.add(end, nearest.node);
@@ -46,6 +51,9 @@ std::vector<Configuration> joined(const Tree &from_start, std::size_t start_side
 
 Plan plan(cstk::Query &query, const cstk::Space &space, const cstk::CObject &contact, const Configuration &start,
           const Configuration &goal, const Options &options) {
+    if (!(options.range > 0)) {
+        throw std::invalid_argument("the range must be larger than 0");
+    }
     EdgeProver edges(query, contact);
     if (!edges.is_free(start) || !edges.is_free(goal)) {
         return {};

@@ -15,11 +15,23 @@ double wrapped(double angle) { return std::remainder(angle, 2 * pi); }
 
 } // namespace
 
-Grid::Grid(const Problem &problem, unsigned halvings) {
-    if (problem.space.nq() != problem.space.nv() || problem.axes.size() != problem.space.nq()) {
+void require_axes(const Problem &problem) {
+    std::vector<bool> has_axis(problem.space.nq());
+    bool is_one_each = problem.space.nq() == problem.space.nv() && problem.axes.size() == has_axis.size();
+    for (const Axis &axis : problem.axes) {
+        is_one_each = is_one_each && axis.coordinate < has_axis.size() && !has_axis[axis.coordinate];
+        if (is_one_each) {
+            has_axis[axis.coordinate] = true;
+        }
+    }
+    if (!is_one_each) {
         throw std::invalid_argument(problem.name +
                                     ": there is one axis for each coordinate, and no quaternion");
     }
+}
+
+Grid::Grid(const Problem &problem, unsigned halvings) {
+    require_axes(problem);
     for (const Axis &axis : problem.axes) {
         const cstk_range range = problem.space.range(axis.coordinate);
         const bool circle = range.kind == CSTK_RANGE_CIRCLE;

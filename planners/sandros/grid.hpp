@@ -10,6 +10,9 @@ namespace sandros {
 /// are free. No cells stand for the whole of C-space.
 using Cells = std::vector<std::size_t>;
 
+/// Throws std::invalid_argument unless there is one axis for each coordinate, and no quaternion.
+void require_axes(const Problem &problem);
+
 class Grid {
   public:
     /// Every coordinate's cells are halved `halvings` times.

@@ -205,11 +205,14 @@ const char *name_of(Outcome outcome) {
         return "gave up";
     case Outcome::BAD_START_OR_GOAL:
         return "start or goal is not free";
+    case Outcome::NOT_PROVED:
+        return "a path nearer to contact than rounding";
     }
     return "";
 }
 
 Plan plan(const Problem &problem, const PlanOptions &options) {
+    require_axes(problem);
     Plan made = {Outcome::BAD_START_OR_GOAL, {}, {}};
     cstk::Query query;
     const cstk::CObject obstacles = obstacles_of(problem);
@@ -227,6 +230,11 @@ Plan plan(const Problem &problem, const PlanOptions &options) {
         search.add_work(made.work);
         if (made.outcome == Outcome::FOUND) {
             made.path = shortened(problem, search.take_path());
+            // Slides prove their motions pair by pair, and may leave less room than whole motions are proved with.
+            if (!is_free(problem, made.path)) {
+                made.outcome = Outcome::NOT_PROVED;
+                made.path.clear();
+            }
         }
         if (made.outcome != Outcome::NO_PATH_AT_THIS_RESOLUTION) {
             break;

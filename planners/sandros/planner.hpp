@@ -25,6 +25,8 @@ enum class Outcome {
     GAVE_UP,
     /// The start or the goal is inside an obstacle, or out of its range.
     BAD_START_OR_GOAL,
+    /// A path was found that comes so near to contact that not all of its motions could be proved.
+    NOT_PROVED,
 };
 
 const char *name_of(Outcome outcome);

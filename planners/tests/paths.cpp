@@ -12,7 +12,9 @@
 #include "fcl_cell.hpp"
 #endif
 
+#include <cmath>
 #include <exception>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -74,6 +76,36 @@ void what_cannot_be_reached_gets_no_path() {
            "a goal behind a closed wall gets no path");
 }
 
+void ranges_and_ends_of_all_kinds_end() {
+    const Problem problem = problems::windows();
+    const problems::Workcell &cell = *problem.workcell;
+    cstk::Query query;
+    rrt_connect::Options options;
+    const auto path = [&](const problems::Configuration &goal) {
+        return rrt_connect::plan(query, cell.space, cell.contact, problem.start, goal, options).path;
+    };
+    for (const double range : {0.0, -1.0, std::nan("")}) {
+        options.range = range;
+        bool is_refused = false;
+        try {
+            path(problem.goal);
+        } catch (const std::invalid_argument &) {
+            is_refused = true;
+        }
+        expect(is_refused, "a range of " + std::to_string(range) + " is refused");
+    }
+    // Steps so short that the configuration does not change.
+    options.range = 1e-300;
+    options.max_samples = 10;
+    path(problem.goal);
+    options.range = 10;
+    using Path = std::vector<problems::Configuration>;
+    expect(path(problem.start) == Path{problem.start}, "a goal that is the start is reached at once");
+    problems::Configuration near_by = problem.start;
+    near_by[1] += 1e-3;
+    expect(path(near_by) == Path{problem.start, near_by}, "a straight way is one motion");
+}
+
 void the_nearest_node_is_that_of_a_search_through_all(const cstk::Space &space, const std::string &what) {
     std::uint64_t random = 5;
     rrt_connect::Tree tree(space, space.sample(random));
@@ -109,6 +141,7 @@ int main(int count, char **arguments) {
             solve(problem, 1);
         }
         what_cannot_be_reached_gets_no_path();
+        ranges_and_ends_of_all_kinds_end();
         if (!panda.empty()) {
             const problems::Panda robot(panda);
             for (const char *scene : {"bookshelf_thin", "cage", "table_under_pick"}) {

@@ -233,6 +233,25 @@ def test_the_halves_of_a_slide(query):
         cstk.slide_step(query.witnesses(arm.cobject, q, 0.5), [0.5, 0.0], desired)
 
 
+def test_what_slide_steps_read_cannot_be_taken_away(query):
+    arm = PlanarArm(2.2)
+    found = query.gradients(arm.cobject, [1.25, 0.0], 0.5)
+    desired = found[0].distance - 0.01
+    step = cstk.slide_step(found, [0.5, 0.0], desired)
+    for name in ("witnesses", "contacts", "gradients"):
+        with pytest.raises(AttributeError):
+            setattr(found, name, getattr(found, name))
+    with pytest.raises(ValueError):
+        found.gradients.resize((0, 2), refcheck=False)
+    rows = found.gradients
+    assert (cstk.slide_step(found, [0.5, 0.0], desired) == step).all()
+    # A view outlives its list.
+    before = rows.copy()
+    del found
+    np.empty(10**6).fill(7)
+    assert (rows == before).all()
+
+
 def test_the_callers_word_is_taken_within_its_sets(query):
     arm = PlanarArm(2.2)
     grown = query.region_grow(arm.cobject, arm.space, [-1.0, 0.0])

@@ -11,8 +11,8 @@ use crate::tolerance;
 pub struct Bounds {
     pub(super) center: Vec3,
     pub(super) radius: f64,
-    /// How near the body comes to the centre: see `reach`.
-    pub(super) reach: f64,
+    /// How near the body comes to the centre: see `gap_to_center`.
+    pub(super) gap_to_center: f64,
     /// The centre of the box.
     pub box_center: Vec3,
     /// The first two axes, orthonormal to within 2^-12 (see `PackedBox`); the third is their cross product.
@@ -44,7 +44,7 @@ impl Bounds {
         Self {
             center: vector(origin + to_ball),
             radius: whole.ball_radius,
-            reach: whole.reach,
+            gap_to_center: whole.gap_to_center,
             box_center: vector(origin + to_box),
             axes: [vector(axis_x), vector(axis_y)],
             half: whole.half,
@@ -60,7 +60,7 @@ impl Bounds {
     pub fn distance(&self, other: &Bounds) -> [f64; 2] {
         let apart = (self.center - other.center).norm();
         let radii = self.radius + other.radius;
-        let at_most = (apart + self.reach + other.reach).max(0.0);
+        let at_most = (apart + self.gap_to_center + other.gap_to_center).max(0.0);
         let largest_coordinate = self.largest_coordinate.max(other.largest_coordinate);
         let slack = slack(largest_coordinate, self.deviation + other.deviation);
         [apart - radii - slack, at_most + slack]

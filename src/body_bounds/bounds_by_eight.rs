@@ -22,7 +22,7 @@ struct FourBounds {
     largest_coordinate: F64x4,
     half: Points64,
     radius: F64x4,
-    reach: F64x4,
+    gap_to_center: F64x4,
     box_radius: F64x4,
     deviation: F64x4,
 }
@@ -191,7 +191,7 @@ impl FourBounds {
         put(&mut self.half, &one.half);
         self.largest_coordinate.0[lane] = one.largest_coordinate;
         self.radius.0[lane] = one.radius;
-        self.reach.0[lane] = one.reach;
+        self.gap_to_center.0[lane] = one.gap_to_center;
         self.box_radius.0[lane] = one.box_radius;
         self.deviation.0[lane] = one.deviation;
     }
@@ -202,7 +202,7 @@ impl FourBounds {
         Bounds {
             center: point(&self.center),
             radius: self.radius.0[lane],
-            reach: self.reach.0[lane],
+            gap_to_center: self.gap_to_center.0[lane],
             box_center: point(&self.box_center),
             axes: [point(&self.axes[0]), point(&self.axes[1])],
             half: point(&self.half),

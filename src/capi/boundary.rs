@@ -57,18 +57,3 @@ pub fn last_message() -> *const c_char {
         .try_with(|message| message.borrow().as_ptr())
         .unwrap_or(c"".as_ptr())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::ffi::CStr;
-
-    #[test]
-    fn a_panic_comes_back_as_a_status() {
-        let status = guard(|| panic!("deliberate {}", 7));
-        assert_eq!(status, cstk_status::CSTK_ERROR_INTERNAL);
-        // SAFETY: the message is a C string owned by this thread.
-        let message = unsafe { CStr::from_ptr(last_message()) };
-        assert_eq!(message.to_str().unwrap(), "internal fault: deliberate 7");
-    }
-}

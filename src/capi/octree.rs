@@ -20,7 +20,6 @@ use std::sync::Arc;
 use super::body::body::cstk_body;
 use super::boundary::{Failure, guard};
 use super::environment::environment::cstk_environment;
-use super::exclusive::Exclusive;
 use super::handle;
 use super::handle::Noun;
 use super::hierarchy::options::cstk_hierarchy_options;
@@ -29,6 +28,7 @@ use super::status::callbacks::{cstk_destroy_fn, cstk_progress_fn, reporter};
 use super::status::status::cstk_status;
 use super::user_data::CallerData;
 use crate::environment::Environment;
+use crate::exclusive::Exclusive;
 use crate::octree::Octree;
 
 /// Which cells of a grid are occupied. Serves one call at a time; another call meanwhile is CSTK_ERROR_BUSY. Queries on the

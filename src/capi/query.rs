@@ -14,7 +14,6 @@
 use std::sync::Arc;
 
 use super::boundary::{Failure, guard};
-use super::exclusive::Exclusive;
 use super::handle;
 use super::handle::Noun;
 use super::input::{Output, start};
@@ -31,6 +30,7 @@ use crate::capi::object_pairs::cstk_object_pair;
 use crate::capi::status::status::cstk_status;
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind};
+use crate::exclusive::Exclusive;
 use crate::pose::Pose;
 use crate::query::{
     ContactsListed, LinkPair, PairVerdict, PenetrationList, QueryContext, WitnessList,

@@ -136,35 +136,35 @@ fn signed_range(set: &PureSet, space: &Space, around: &Around) -> [f64; 2] {
         PureShape::Box { .. } => {
             let mut range = [f64::NEG_INFINITY; 2];
             for (c, span) in set.spans(space, around.q) {
-                let reach = coordinate_reach(space, around, c) + span.error + slack;
-                range[0] = range[0].max(span.beyond - reach);
-                range[1] = range[1].max(span.beyond + reach);
+                let change = coordinate_change(space, around, c) + span.error + slack;
+                range[0] = range[0].max(span.beyond - change);
+                range[1] = range[1].max(span.beyond + change);
             }
             range
         }
         PureShape::HalfSpace { normal, .. } => {
             let (signed, error) = set.by_coordinate(space, around.q);
-            let reach = plane_reach(space, around, normal) + error + slack;
-            [signed - reach, signed + reach]
+            let change = change_across(space, around, normal) + error + slack;
+            [signed - change, signed + change]
         }
         PureShape::Ball { center, radius } => {
             let (signed, error) = set.by_coordinate(space, around.q);
-            let reach = length(around.half);
+            let change = length(around.half);
             let error = error + slack;
             let offset = space.offset(center, around.q);
             let highest = match around.half {
                 [] => signed,
-                _ if !moves_lines_only(space, around) => signed + reach,
+                _ if !moves_lines_only(space, around) => signed + change,
                 half => farthest(&offset, half, around.is_line) - radius,
             };
-            [signed - reach - error, highest + error]
+            [signed - change - error, highest + error]
         }
         _ => [f64::NEG_INFINITY, f64::INFINITY],
     }
 }
 
 /// How far a coordinate goes from the middle; positions of free joints together at most as far as their velocities are long.
-fn coordinate_reach(space: &Space, around: &Around, c: usize) -> f64 {
+fn coordinate_change(space: &Space, around: &Around, c: usize) -> f64 {
     if around.half.is_empty() {
         return 0.0;
     }
@@ -183,7 +183,7 @@ fn coordinate_reach(space: &Space, around: &Around, c: usize) -> f64 {
 }
 
 /// How far the configurations go from the middle along a normal, which has entries for lines and positions only.
-fn plane_reach(space: &Space, around: &Around, normal: &[f64]) -> f64 {
+fn change_across(space: &Space, around: &Around, normal: &[f64]) -> f64 {
     if around.half.is_empty() {
         return 0.0;
     }

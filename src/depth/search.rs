@@ -384,12 +384,12 @@ impl<'a, 's> DepthSearch<'a, 's> {
 
     /// Shortens the way out by what touches after it, as long as that helps.
     fn correct(&mut self) {
-        let mut reach = 1e-3 * self.upper + 2.0 * self.tolerance;
+        let mut cutoff = 1e-3 * self.upper + 2.0 * self.tolerance;
         for _ in 0..MAX_CORRECTIONS {
             if self.scratch.meter().is_exceeded() || self.upper == f64::INFINITY {
                 return;
             }
-            let (touching, _) = touching_at(&self.pairing, &self.way, reach, self.scratch);
+            let (touching, _) = touching_at(&self.pairing, &self.way, cutoff, self.scratch);
             let next = straightened(&touching, &self.way, 1.5 * self.clearance, self.rounding);
             let moved = (next - self.way).norm();
             let before = self.upper;
@@ -398,7 +398,7 @@ impl<'a, 's> DepthSearch<'a, 's> {
             {
                 return;
             }
-            reach = reach
+            cutoff = cutoff
                 .min(moved + 4.0 * self.clearance)
                 .max(4.0 * self.clearance);
         }

@@ -37,15 +37,15 @@ const DIRECTION_ERROR: f64 = 1e-6;
 /// Normals closer than this are of parallel features.
 const SAME_NORMAL: f64 = 1e-9;
 
-/// The contacts within `reach` after A has moved by `way`, and whether these are all.
+/// The contacts within `cutoff` after A has moved by `way`, and whether these are all.
 pub fn touching_at(
     pairing: &Pairing,
     way: &Vec3,
-    reach: f64,
+    cutoff: f64,
     scratch: &mut Scratch,
 ) -> (Vec<Touching>, bool) {
     let shifted = pairing.shifted(way);
-    let mut visitor = Collect::new(reach, MAX_CONTACTS, false);
+    let mut visitor = Collect::new(cutoff, MAX_CONTACTS, false);
     let _ = traverse(&shifted, None, scratch, &mut visitor);
     let (hits, is_truncated) = visitor.finish();
     let mut found = Vec::new();

@@ -4,6 +4,7 @@ mod ball;
 mod build;
 mod composed;
 mod extremes;
+mod gap_to_center;
 #[doc(hidden)]
 pub mod grouping;
 mod levels;
@@ -11,7 +12,6 @@ mod options;
 #[doc(hidden)]
 pub mod packed;
 mod parallel;
-mod reach;
 mod refit;
 mod statistics;
 mod subset_tree;
@@ -22,10 +22,10 @@ pub use ball::Ball;
 pub use build::{BuildTimes, Hierarchy, build_hierarchy};
 pub use composed::{PartHierarchy, compose_hierarchy};
 pub use extremes::{extremes, few_extremes};
+#[doc(hidden)]
+pub use gap_to_center::gap_to_center;
 pub use options::{Grouping, HierarchyOptions, Pieces, WrapperKind};
 pub use parallel::Progress;
-#[doc(hidden)]
-pub use reach::reach;
 pub use refit::refit_hierarchy;
 pub use statistics::{LevelStatistics, TreeStatistics, of_extents, require_level};
 pub use subset_tree::{Node, SubsetTree};

@@ -26,9 +26,9 @@ impl Balls<'_> {
         let [a, b] = self.bodies;
         let distance = apart.norm();
         let moved = center_moves(apart, distance);
-        let reach = a.radius() + b.radius();
-        let errors = kinematics_error + 1e-9 * (distance + reach) + a.deviation() + b.deviation();
-        distance > reach + self.threshold + moved * SUM_SLACK + errors
+        let radii = a.radius() + b.radius();
+        let errors = kinematics_error + 1e-9 * (distance + radii) + a.deviation() + b.deviation();
+        distance > radii + self.threshold + moved * SUM_SLACK + errors
     }
 
     /// The same over an interval, through which the second and third derivative of A's centre are at most `bounds`.

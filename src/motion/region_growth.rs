@@ -11,9 +11,9 @@ use crate::space::Space;
 /// A side that was free grows by this much more the next time.
 const FASTER: f64 = 1.5;
 
-/// All sides together are tried down to this part of the largest side: a configuration nearer to contact gets a box that leads away
-/// from it.
-const SHORTEST_LENGTH: f64 = 1.0 / (1u64 << 24) as f64;
+/// All sides together are tried with the largest side halved so often: a configuration nearer to contact gets a box that leads away from
+/// it.
+const MAX_HALVINGS: usize = 24;
 
 /// How a box is grown. Lengths of sides are counted in weights: those of a velocity with weight 2 grow twice as far.
 #[derive(Clone, Copy, Debug)]
@@ -257,12 +257,13 @@ impl Growth<'_> {
     fn together(&mut self, context: &mut QueryContext) -> Result<()> {
         let mut grown = None;
         let mut length = self.options.max_side;
-        while grown.is_none() && length >= SHORTEST_LENGTH * self.options.max_side {
+        for _ in 0..=MAX_HALVINGS {
             let region = self.all_moved_on(length);
-            match self.prove(&region, context)? {
-                BoxProof::Free => grown = Some(region),
-                _ => length *= 0.5,
+            if matches!(self.prove(&region, context)?, BoxProof::Free) {
+                grown = Some(region);
+                break;
             }
+            length *= 0.5;
         }
         if let Some(mut grown) = grown {
             let mut more = 0.5 * length;

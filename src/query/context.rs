@@ -142,7 +142,7 @@ impl QueryContext {
     }
 
     /// A new context with the same settings.
-    pub(crate) fn renewed(&self) -> Self {
+    pub fn renewed(&self) -> Self {
         let mut renewed = Self {
             contacts: self.contacts,
             refinement: self.refinement,

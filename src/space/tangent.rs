@@ -70,8 +70,8 @@ impl Space {
         }
     }
 
-    /// The smallest velocity that leads from `q0` to `q1` in a unit of time: circles go the shorter way round, and by -pi
-    /// between opposite angles; quaternions turn by at most half a turn.
+    /// The smallest velocity that leads from `q0` to `q1` in a unit of time: circles go the shorter way round, and
+    /// between opposite angles that of `q1 - q0`; quaternions turn by at most half a turn. The way back is the same.
     pub fn difference(&self, q0: &[f64], q1: &[f64]) -> Vec<f64> {
         let mut v = vec![0.0; self.nv()];
         self.write_difference(q0, q1, &mut v);
@@ -277,10 +277,20 @@ const POSITION_ERROR: f64 = 4.0 * EPSILON;
 /// A velocity, in memory of its own for most robots.
 type Velocity = SmallVec<[f64; 16]>;
 
-/// The shorter way round a circle.
+/// The shorter way round a circle. The way back is the same to the last bit, for opposite angles too: these go as the angles do.
 #[inline]
 fn way_round(from: f64, to: f64) -> f64 {
-    shorter_way(within_turns(to) - within_turns(from))
+    let given = within_turns(to) - within_turns(from);
+    let size = given.abs();
+    let way = if size <= PI {
+        size
+    } else if size < 3.0 * PI {
+        size - TAU
+    } else {
+        let reduced = shorter_way(size);
+        if reduced == -PI { PI } else { reduced }
+    };
+    way * given.signum()
 }
 
 /// An angle, or the same direction within half a turn where the angle is large: there multiples of a rounded turn would be off by more

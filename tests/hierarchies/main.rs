@@ -2,8 +2,8 @@
 
 mod box_tree;
 mod clouds;
+mod gap_to_center;
 #[allow(clippy::module_inception)]
 mod hierarchies;
 mod hierarchy_answers;
 mod hierarchy_levels;
-mod reach;

@@ -1,6 +1,8 @@
 //! Boxes that grow around a configuration: free at every sample, and stopped by what is told.
 
-use cstk::cobject::{Class, PureShape};
+use std::sync::Arc;
+
+use cstk::cobject::{CObject, Class, PureShape};
 use cstk::motion::{GrowthOptions, SideStop};
 use cstk::pose::{Pose, Vec3};
 use cstk::query::QueryContext;
@@ -39,6 +41,27 @@ fn limited_work_leaves_the_box_so_far() {
         outcomes[usize::from(is_limited)] += 1;
     }
     assert!(outcomes.iter().all(|&n| n > 0), "{outcomes:?}");
+}
+
+/// Sides so short that their halves are no numbers any more end as others do, also where nothing can be proved: at touching cubes it is
+/// not known that their complement is left.
+#[test]
+fn the_shortest_sides_end() {
+    let (space, cube) = (slider(), cuboid([1.0; 3]).body);
+    let wall = [(&cube, Pose::from_translation(Vec3::new(2.0, 0.0, 0.0)))];
+    let complement =
+        CObject::complement(&Arc::new(against(&space, &environment(&wall).0))).unwrap();
+    let touching = 1.0;
+    let context = &mut QueryContext::new();
+    for max_side in [1e-300, 1e-310, 1e-317, 5e-324] {
+        let options = &GrowthOptions {
+            max_side,
+            ..GrowthOptions::default()
+        };
+        let grown = context.grow_region(&complement, &[touching], None, options);
+        let grown = grown.unwrap();
+        assert_eq!((grown.low[0], grown.high[0]), (touching, touching));
+    }
 }
 
 /// Grown boxes hold their configuration, are free at every sample, and what stops a side is a contact just beyond it.

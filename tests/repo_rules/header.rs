@@ -74,3 +74,10 @@ fn the_examples_of_the_header_compile() {
         );
     }
 }
+
+#[test]
+fn the_version_is_that_of_the_package() {
+    use cstk::capi::status::version::*;
+    let parts = format!("{CSTK_VERSION_MAJOR}.{CSTK_VERSION_MINOR}.{CSTK_VERSION_PATCH}");
+    assert_eq!(parts, env!("CARGO_PKG_VERSION"));
+}

@@ -179,7 +179,9 @@ fn circles_go_the_shorter_way() {
         (0.1, TAU - 0.1, -0.2),
         (TAU - 0.1, 0.1, 0.2),
         (0.0, 3.0, 3.0),
-        (0.0, PI, -PI),
+        (0.0, PI, PI),
+        (PI, 0.0, -PI),
+        (-1.5 * PI, 1.5 * PI, PI),
         (1.0, 1.0 + 5.0 * TAU, 0.0),
         (-7.0, 7.0, 14.0 - 2.0 * TAU),
     ] {
@@ -189,6 +191,37 @@ fn circles_go_the_shorter_way() {
         assert_eq!(space.displacement(&[from], &[to])[0], to - from);
     }
     assert!((space.interpolate(&[0.1], &[TAU - 0.1], 0.5)[0]).abs() < 1e-15);
+}
+
+/// A way that is proved one way is proved the other way too: quaternions and circles are turned back as they were turned, those half a turn
+/// apart as well.
+#[test]
+fn the_way_back_is_the_same() {
+    let mut random = Random::new(59);
+    let circle = space(vec![of(&[JointKind::Revolute])]);
+    for _ in 0..10_000 {
+        let size = 10f64.powf(random.within(-3.0, 3.0));
+        let from = random.within(-size, size);
+        // Half turns, more and less by some ulps, and any angles.
+        let to = match random.below(3) {
+            0 => from + PI * (random.below(9) as f64 - 4.0),
+            1 => (from + PI) * (1.0 + random.within(-1e-15, 1e-15)),
+            _ => random.within(-size, size),
+        };
+        let [there, back] = [[from, to], [to, from]].map(|[a, b]| circle.difference(&[a], &[b])[0]);
+        assert_eq!(there, -back, "{from} {to}");
+        assert!(there.abs() <= PI);
+    }
+    let ball = space(vec![of(&[JointKind::Spherical])]);
+    for _ in 0..10_000 {
+        let axis = random.unit();
+        let from = nalgebra::UnitQuaternion::from_matrix(&random.rotation());
+        let turn = nalgebra::UnitQuaternion::from_scaled_axis(axis * PI);
+        let [a, b] = [from, from * turn].map(|q| [q.w, q.i, q.j, q.k]);
+        let [there, back] = [ball.difference(&a, &b), ball.difference(&b, &a)];
+        let off = there.iter().zip(&back).map(|(x, y)| (x + y).abs());
+        assert!(off.fold(0.0, f64::max) < 1e-7, "{there:?} {back:?}");
+    }
 }
 
 #[test]

@@ -16,7 +16,10 @@ class LinkProjection : public ompl::base::ProjectionEvaluator {
   public:
     /// Cells are cubes with this side, a length.
     LinkProjection(const StateSpace &space, std::uint32_t link, double cell)
-        : ProjectionEvaluator(&space), state_space_(space), link_(link), cell_(cell) {}
+        : ProjectionEvaluator(&space), state_space_(space), link_(link), cell_(cell) {
+        // Of default projections OMPL keeps those alone whose cells a caller has set.
+        setCellSizes({cell, cell, cell});
+    }
 
     unsigned int getDimension() const override { return 3; }
     void defaultCellSizes() override { cellSizes_.assign(3, cell_); }

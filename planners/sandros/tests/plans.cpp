@@ -7,8 +7,10 @@
 #include "../planner.hpp"
 #include "../problems/problems.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <stdexcept>
 
 namespace {
 
@@ -95,6 +97,62 @@ void bad_ends_are_refused() {
            "the search ends at max_subgoals");
 }
 
+/// A cart with a bar that turns by half a turn, which is as far either way, past a disc on one side.
+void half_turns_are_proved() {
+    const double pi = std::acos(-1.0);
+    cstk::RobotBuilder builder(2);
+    cstk::Link cart, bar;
+    cart.joint = CSTK_JOINT_PRISMATIC;
+    cart.axis = {1, 0, 0};
+    cart.lower = -1;
+    cart.upper = 1.3;
+    cart.body = cstk::Body::capsule({0, 0, 0}, {0.2, 0, 0}, 0.05, 2);
+    builder.add_link(cart);
+    bar.parent = 0;
+    bar.joint = CSTK_JOINT_REVOLUTE;
+    bar.at[3] = 0.2;
+    bar.body = cstk::Body::capsule({0, 0, 0}, {0.8, 0, 0}, 0.1, 2);
+    builder.add_link(bar);
+    Problem problem;
+    problem.name = "half turn";
+    problem.robots = {builder.build()};
+    problem.space = cstk::Space(problem.robots);
+    problem.add_obstacle(cstk::Body::sphere(0.05, {0.26, -0.53, 0}, 2));
+    problem.slide = {0.3, 0.9, 0.9};
+    std::size_t found = 0, asked = 0;
+    for (double from = -0.9; from < 1.3; from += 0.2) {
+        for (double to = -0.9; to < 1.3; to += 0.2) {
+            for (const std::size_t cells : {2, 3, 7}) {
+                problem.start = {from, 0};
+                problem.goal = {to, pi};
+                problem.axes = {{0, cells}, {1, cells}};
+                const Plan made = plan(problem, halved(2));
+                expect(made.outcome != Outcome::NOT_PROVED, "half turns are not proved");
+                found += made.outcome == Outcome::FOUND;
+                expect(made.outcome != Outcome::FOUND || is_free(problem, made.path),
+                       "a half turn meets the disc");
+                ++asked;
+            }
+        }
+    }
+    std::printf("half turns: %zu of %zu found\n", found, asked);
+    expect(2 * found > asked, "half of the half turns are found");
+}
+
+void axes_are_one_for_each_coordinate() {
+    for (const std::size_t coordinate : {std::size_t{1}, std::size_t{3}, std::size_t{1} << 40}) {
+        Problem problem = problems::bug_trap(true);
+        problem.axes[0].coordinate = coordinate;
+        bool is_refused = false;
+        try {
+            plan(problem);
+        } catch (const std::invalid_argument &) {
+            is_refused = true;
+        }
+        expect(is_refused, "axes that are not one for each coordinate are refused");
+    }
+}
+
 } // namespace
 
 int main(int count, char **arguments) {
@@ -113,6 +171,8 @@ int main(int count, char **arguments) {
     }
     a_closed_trap_has_no_way_out();
     bad_ends_are_refused();
+    half_turns_are_proved();
+    axes_are_one_for_each_coordinate();
     std::printf("%d failures\n", failures);
     return failures == 0 ? 0 : 1;
 }

@@ -26,28 +26,42 @@ def path_from(given: Any) -> Array:
 class WitnessList:
     """Witnesses, nearest first, with their contacts. It is a sequence of its witnesses."""
 
-    __slots__ = ("_c", "witnesses", "contacts", "gradients")
-
-    witnesses: Records[Witness]
-    contacts: Records[Contact]
-    """Of all witnesses, one after the other; contacts_of() gives those of one."""
-    gradients: Optional[Array]
-    """(contacts, nv), one row for each contact: the derivative of its distance. None for lists without gradients."""
+    __slots__ = ("_c", "_witnesses", "_contacts", "_gradients", "_rows")
 
     def __init__(self, given: Any) -> None:
-        self.witnesses = Records.copied(Witness, given.witnesses, given.witness_count)
-        self.contacts = Records.copied(Contact, given.contacts, given.contact_count)
-        self.gradients = None
+        self._witnesses = Records.copied(Witness, given.witnesses, given.witness_count)
+        self._contacts = Records.copied(Contact, given.contacts, given.contact_count)
+        self._gradients: Optional[Array] = None
         # A copy for slide_step and spring_step, with the arrays that belong to this list.
         self._c = ffi.new("cstk_witness_list *")
         ffi.memmove(self._c, ffi.addressof(given), ffi.sizeof("cstk_witness_list"))
-        self._c.witnesses = self.witnesses._c
-        self._c.contacts = self.contacts._c
+        self._c.witnesses = self._witnesses._c
+        self._c.contacts = self._contacts._c
         if given.nv:
-            self.gradients = np.empty((given.contact_count, given.nv))
+            shape = (given.contact_count, given.nv)
+            # Memory that the array does not own: nothing that is done to the array frees what C points to.
+            self._c.gradients = self._rows = ffi.new("double[]", shape[0] * shape[1])
             if given.contact_count:
-                ffi.memmove(ffi.from_buffer(self.gradients), given.gradients, self.gradients.nbytes)
-            self._c.gradients = ffi.from_buffer("double[]", self.gradients)
+                ffi.memmove(self._rows, given.gradients, ffi.sizeof(self._rows))
+                self._gradients = np.frombuffer(ffi.buffer(self._rows), np.float64).reshape(shape)
+            else:
+                self._gradients = np.empty(shape)
+
+    @property
+    def witnesses(self) -> Records[Witness]:
+        """Nearest first."""
+        return self._witnesses
+
+    @property
+    def contacts(self) -> Records[Contact]:
+        """Of all witnesses, one after the other; contacts_of() gives those of one."""
+        return self._contacts
+
+    @property
+    def gradients(self) -> Optional[Array]:
+        """(contacts, nv), one row for each contact: the derivative of its distance. None for lists without gradients. slide_step and
+        spring_step read what stands in it."""
+        return self._gradients
 
     @property
     def truncated(self) -> bool:

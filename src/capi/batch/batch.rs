@@ -6,7 +6,6 @@ use std::sync::Arc;
 use super::call::Call;
 use crate::batch::{Batch, BatchOptions};
 use crate::capi::boundary::{Failure, guard};
-use crate::capi::exclusive::Exclusive;
 use crate::capi::handle;
 use crate::capi::handle::Noun;
 use crate::capi::input::{OptionsStruct, Output, options_or_default, write_defaults};
@@ -14,6 +13,7 @@ use crate::capi::query::cstk_query_statistics;
 use crate::capi::status::callbacks::{cstk_progress_fn, reporter};
 use crate::capi::status::status::cstk_status;
 use crate::error::Error;
+use crate::exclusive::Exclusive;
 
 /// The caches and scratch memory of a batch's threads, kept from one call to the next: once warm, calls allocate a little for their
 /// threads and nothing for their items. Items that do allocate are motions, gradients of pure sets and of custom joints, predicates,

@@ -6,13 +6,13 @@ use std::sync::Arc;
 use crate::body::{Body, BodyBuilder, Mesh};
 use crate::capi::body::body::cstk_body;
 use crate::capi::boundary::{Failure, guard};
-use crate::capi::exclusive::Exclusive;
 use crate::capi::handle;
 use crate::capi::handle::Noun;
 use crate::capi::hierarchy::options::cstk_hierarchy_options;
 use crate::capi::input::{Output, array, collected, options_or_default, path, points, pose, slice};
 use crate::capi::status::callbacks::{cstk_progress_fn, reporter};
 use crate::capi::status::status::cstk_status;
+use crate::exclusive::Exclusive;
 use crate::pose::{Pose, Vec3};
 
 /// Collects the primitives of a body. Serves one call at a time; another call meanwhile is CSTK_ERROR_BUSY.

@@ -12,14 +12,3 @@ pub const CSTK_VERSION_PATCH: u32 = 0;
 pub extern "C" fn cstk_version() -> *const c_char {
     concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_parts_are_those_of_the_package() {
-        let parts = format!("{CSTK_VERSION_MAJOR}.{CSTK_VERSION_MINOR}.{CSTK_VERSION_PATCH}");
-        assert_eq!(parts, env!("CARGO_PKG_VERSION"));
-    }
-}

@@ -3,7 +3,7 @@
 
 use super::packed_primitives::PackedPrimitives;
 use crate::boxes::{ChildPoints, PackedBox, WideNode, fitted_axes};
-use crate::hierarchy::{Ball, Node, SubsetTree, reach};
+use crate::hierarchy::{Ball, Node, SubsetTree, gap_to_center};
 use crate::lanes::{F64x4, Instructions, Lanes8, Points64, each3};
 use crate::pose::Vec3;
 use crate::primitive::{Primitive, Primitives};
@@ -104,8 +104,8 @@ pub struct Whole {
     /// An upper bound of the corners' distance from the box's centre.
     pub radius: f64,
     pub ball_radius: f64,
-    /// How near the body comes to the ball's centre: see [`reach`].
-    pub reach: f64,
+    /// How near the body comes to the ball's centre: see [`gap_to_center`].
+    pub gap_to_center: f64,
 }
 
 impl Whole {
@@ -161,7 +161,7 @@ impl PackedTree {
                 half: Vec3::zeros(),
                 radius: 0.0,
                 ball_radius: 0.0,
-                reach: 0.0,
+                gap_to_center: 0.0,
             },
             core: None,
         }
@@ -213,7 +213,7 @@ impl PackedTree {
             // The axes are orthogonal only to rounding.
             radius: half.norm() * 1.001,
             ball_radius: ball.radius,
-            reach: reach(primitives, &ball.center),
+            gap_to_center: gap_to_center(primitives, &ball.center),
         };
         let core = |only: Primitive| RoundCore::of(&only, self.scale);
         self.core = primitives.only().and_then(core).map(Box::new);

@@ -2,7 +2,6 @@
 
 use try_lock::TryLock;
 
-use super::boundary::Failure;
 use crate::error::{Error, ErrorKind};
 
 /// An object that one call at a time may have. Nobody waits for it, so that letting go of it is a plain store: to a [`std::sync::Mutex`] it
@@ -28,14 +27,14 @@ impl<T> Exclusive<T> {
     /// Runs an action with the object; [`ErrorKind::Busy`] if another call has it. `mend` repairs an object that a panic may have
     /// left half changed.
     #[inline(always)]
-    pub fn with(
+    pub fn with<E: From<Error>>(
         &self,
         name: &str,
         mend: impl FnOnce(&mut T),
-        action: impl FnOnce(&mut T) -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
+        action: impl FnOnce(&mut T) -> Result<(), E>,
+    ) -> Result<(), E> {
         let Some(mut guarded) = self.0.try_lock() else {
-            return Err(busy(name));
+            return Err(busy(name).into());
         };
         if guarded.is_changing {
             mend(&mut guarded.object);
@@ -48,8 +47,8 @@ impl<T> Exclusive<T> {
 }
 
 #[cold]
-fn busy(name: &str) -> Failure {
-    Error::new(ErrorKind::Busy, format!("{name} is in use by another call")).into()
+fn busy(name: &str) -> Error {
+    Error::new(ErrorKind::Busy, format!("{name} is in use by another call"))
 }
 
 #[cfg(test)]
@@ -73,7 +72,7 @@ mod tests {
                     *number = 2;
                     assert!(!panics);
                     *number = 1;
-                    Ok(())
+                    Ok::<(), Error>(())
                 };
                 number.with("it", mend, action)
             }))
@@ -91,12 +90,14 @@ mod tests {
             "it",
             |()| {},
             |()| {
-                let within = outer.with("it", |()| {}, |()| unreachable!("it is taken"));
-                assert!(within.is_err());
-                Ok(())
+                let taken = |_: &mut ()| -> Result<(), Error> { unreachable!("it is taken") };
+                let within = outer.with("it", |()| {}, taken);
+                assert_eq!(within.unwrap_err().kind, ErrorKind::Busy);
+                Ok::<(), Error>(())
             },
         );
         assert!(called.is_ok());
-        assert!(outer.with("it", |()| {}, |()| Ok(())).is_ok());
+        let again = outer.with("it", |()| {}, |()| Ok::<(), Error>(()));
+        assert!(again.is_ok());
     }
 }

@@ -1,6 +1,6 @@
 //! How near bodies come to the centres of their balls: never nearer than they are said to come at most.
 
-use cstk::hierarchy::reach;
+use cstk::hierarchy::gap_to_center;
 use cstk::pose::{Pose, Vec3};
 use cstk::primitive::{
     Convex, Primitives, block, capsule, cone, convex_polygon, convex_polyhedron, cylinder,
@@ -49,15 +49,15 @@ fn no_support_is_farther_behind_than_the_reach() {
             ] {
                 let mut primitives = Primitives::default();
                 primitives.push(shape.clone(), 0);
-                let reach = reach(&primitives, &center);
+                let gap = gap_to_center(&primitives, &center);
                 let behind = (0..200).map(|_| {
                     let direction = random.unit();
                     direction.dot(&(center - shape.farthest(&direction)))
                 });
                 let rounding = 1e-14 * (size + center.norm() + first.norm());
                 let most = behind.fold(f64::NEG_INFINITY, f64::max);
-                assert!(most <= reach + rounding, "{most} {reach} {shape:?}");
-                held += usize::from(reach < 0.0);
+                assert!(most <= gap + rounding, "{most} {gap} {shape:?}");
+                held += usize::from(gap < 0.0);
                 count += 1;
             }
         }

@@ -6,14 +6,14 @@ use crate::primitive::{Convex, Primitive, Primitives, SmoothKind};
 
 /// An upper bound of the distance of the body from `center`, rounded outwards. Below 0 where a primitive holds a ball around the centre:
 /// minus the radius of such a ball.
-pub fn reach(primitives: &Primitives, center: &Vec3) -> f64 {
+pub fn gap_to_center(primitives: &Primitives, center: &Vec3) -> f64 {
     let of_each = primitives.iter().map(|primitive| {
         let from_core = distance_from_core(primitive, center);
         from_core - primitive.shape.radius()
     });
-    let reach = of_each.fold(f64::INFINITY, f64::min);
-    let size = reach.abs();
-    reach + (outwards(size, center) - size)
+    let gap = of_each.fold(f64::INFINITY, f64::min);
+    let size = gap.abs();
+    gap + (outwards(size, center) - size)
 }
 
 /// The same for what a radius is around.
