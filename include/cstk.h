@@ -54,7 +54,8 @@
  * must survive that limit what they give. docs/robustness.md lists what is promised, each line with its test.
  *
  * THREADS. All objects may be shared by threads. Those that a call changes serve one at a time, and answer CSTK_ERROR_BUSY to
- * another: a cstk_query, of which each thread makes its own, a cstk_batch, a cstk_octree and the builders.
+ * another: a cstk_query, of which each thread makes its own, a cstk_batch, a cstk_octree and the builders. After fork() a child
+ * makes objects of its own: one of the parent's may be locked by a thread that the child does not have.
  *
  * OPTIONS. Structures with size and cookie are written by their _default function before fields are set; others are
  * refused with CSTK_ERROR_NOT_INITIALISED. The size passed to it is that of the structure itself, as your header has it: so many
@@ -5473,8 +5474,8 @@ typedef struct cstk_certificate_summary {
  */
 typedef struct cstk_certificate_entry {
   /**
-   * The number of what the C-object asks about, in its order: body pairs, links over floors or in the world box, sets given
-   * in C-space. Several entries may be of one item.
+   * The number of what the C-object asks about, in an order by content (docs/certificate-file.md): body pairs, links over floors or
+   * in the world box, sets given in C-space. Several entries may be of one item.
    */
   uint32_t item;
   /**

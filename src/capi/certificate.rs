@@ -66,8 +66,8 @@ pub struct cstk_certificate_summary {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_certificate_entry {
-    /// The number of what the C-object asks about, in its order: body pairs, links over floors or in the world box, sets given
-    /// in C-space. Several entries may be of one item.
+    /// The number of what the C-object asks about, in an order by content (docs/certificate-file.md): body pairs, links over floors or
+    /// in the world box, sets given in C-space. Several entries may be of one item.
     pub item: u32,
     /// The side in whose body's frame the direction rests: 0 or 1.
     pub carrier: u32,

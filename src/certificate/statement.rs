@@ -1,5 +1,6 @@
 //! What a certificate is to show: the items that a C-object asks about, in an order that its definition gives.
 
+use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -87,8 +88,8 @@ impl<'a> Statement<'a> {
             threshold,
             items: 0,
             sets: 0,
+            digests: HashMap::new(),
             places: HashMap::new(),
-            equal: HashMap::new(),
             statement: Self {
                 space: scene.space(),
                 claim: Claim::All(Vec::new()),
@@ -112,10 +113,27 @@ struct Builder<'a> {
     /// How many sets have been looked at: what stands in several sets counts in each.
     sets: u32,
     /// Of bodies by their serials.
-    places: HashMap<u64, usize>,
+    digests: HashMap<u64, [u8; 32]>,
     /// Of bodies by their digests.
-    equal: HashMap<[u8; 32], usize>,
+    places: HashMap<[u8; 32], usize>,
     statement: Statement<'a>,
+}
+
+/// A body at a pose in the frame of what carries it.
+struct Side<'a> {
+    link: Option<usize>,
+    pose: Pose,
+    body: &'a Body,
+    digest: [u8; 32],
+}
+
+impl Side<'_> {
+    /// An order by content alone.
+    fn order(&self, other: &Self) -> Ordering {
+        let key = |side: &Self| (side.link, side.digest);
+        let order = key(self).cmp(&key(other));
+        order.then_with(|| self.pose.order(&other.pose))
+    }
 }
 
 fn unsupported(leaf: u64, what: &str) -> Error {
@@ -174,20 +192,25 @@ impl<'a> Builder<'a> {
             let what = "it is the complement of an induced set";
             return Err(unsupported(leaf, what));
         }
-        let mut items = Vec::new();
-        let scene = self.scene;
-        scene.visit_every_pair(term, |target| {
+        let mut pairs = Vec::new();
+        self.scene.visit_every_pair(term, |target| {
             let sides = self
                 .sides(&target)
                 .map_err(|_| unsupported(leaf, "a body has a support function of the caller's"))?;
-            let limit = self.threshold + target.margin();
-            items.push(self.item(limit, What::Bodies(sides))?);
+            pairs.push((sides, target.margin()));
             Ok(())
         })?;
+        // Not by ids, which tell how an environment came about: those of an octree's tiles change with its cells.
+        pairs.sort_by(|([a, b], _), ([c, d], _)| a.order(c).then_with(|| b.order(d)));
+        let mut items = Vec::with_capacity(pairs.len());
+        for (sides, margin) in pairs {
+            let sides = sides.map(|side| self.carried(side));
+            items.push(self.item(self.threshold + margin, What::Bodies(sides))?);
+        }
         Ok(Claim::All(items))
     }
 
-    fn sides(&mut self, target: &Target<'a>) -> Result<[Carried<'a>; 2]> {
+    fn sides(&mut self, target: &Target<'a>) -> Result<[Side<'a>; 2]> {
         let (r_link, r_object, s_side) = target.ids();
         let (_, s_link) = target.links();
         let [(a, _), (b, s_pose)] = target.sides;
@@ -200,37 +223,41 @@ impl<'a> Builder<'a> {
             _ => Pose::identity(),
         };
         Ok([
-            self.carried(Some(r_link), a, r_pose)?,
-            self.carried(s_link, b, s_pose)?,
+            self.side(Some(r_link), a, r_pose)?,
+            self.side(s_link, b, s_pose)?,
         ])
     }
 
-    /// A body at a pose in the frame of what carries it.
-    fn carried(&mut self, link: Option<usize>, body: &'a Body, pose: Pose) -> Result<Carried<'a>> {
-        Ok(Carried {
+    fn side(&mut self, link: Option<usize>, body: &'a Body, pose: Pose) -> Result<Side<'a>> {
+        let digest = match self.digests.get(&body.serial()) {
+            Some(known) => *known,
+            None => body.digest()?,
+        };
+        self.digests.insert(body.serial(), digest);
+        Ok(Side {
             link,
             pose,
-            body: Some(body),
-            place: self.place(body)?,
+            body,
+            digest,
         })
     }
 
-    /// The place of a body among those of the statement.
-    fn place(&mut self, body: &'a Body) -> Result<usize> {
-        if let Some(place) = self.places.get(&body.serial()) {
-            return Ok(*place);
-        }
-        let digest = body.digest()?;
+    /// The side, with the place of its body among those of the statement.
+    fn carried(&mut self, side: Side<'a>) -> Carried<'a> {
         let Statement {
             bodies, digests, ..
         } = &mut self.statement;
-        let place = *self.equal.entry(digest).or_insert_with(|| {
-            bodies.push(body);
-            digests.push(digest);
+        let place = *self.places.entry(side.digest).or_insert_with(|| {
+            bodies.push(side.body);
+            digests.push(side.digest);
             bodies.len() - 1
         });
-        self.places.insert(body.serial(), place);
-        Ok(place)
+        Carried {
+            link: side.link,
+            pose: side.pose,
+            body: Some(side.body),
+            place,
+        }
     }
 
     fn pure(&mut self, pure: &'a PureSet) -> Result<Claim<'a>> {
@@ -251,10 +278,11 @@ impl<'a> Builder<'a> {
                         continue;
                     };
                     let on_link = Pose::identity();
-                    let points = self.carried(Some(link), body, on_link).map_err(|_| {
+                    let side = self.side(Some(link), body, on_link).map_err(|_| {
                         let what = "a body has a support function of the caller's";
                         unsupported(pure.leaf.serial, what)
                     })?;
+                    let points = self.carried(side);
                     let what = What::Plane {
                         points,
                         normal: *normal,

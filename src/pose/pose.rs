@@ -1,5 +1,7 @@
 //! A rigid pose: read, checked and inverted.
 
+use std::cmp::Ordering;
+
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
@@ -119,6 +121,15 @@ impl Pose {
         let q = unit.quaternion();
         let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
         [q.i, q.j, q.k, q.w].map(|x| x * sign)
+    }
+
+    /// An order by the numbers of the poses; zeros of either sign are equal.
+    pub(crate) fn order(&self, other: &Self) -> Ordering {
+        let numbers = |pose: &Self| pose.to_row_major().map(|x| x + 0.0);
+        let pairs = numbers(self).into_iter().zip(numbers(other));
+        pairs.fold(Ordering::Equal, |order, (a, b)| {
+            order.then_with(|| a.total_cmp(&b))
+        })
     }
 
     /// The pose as 12 numbers, row-major `[R | t]`: the inverse of [`Pose::from_row_major`].

@@ -83,12 +83,8 @@ impl<'a> Target<'a> {
     pub fn order_of_states(&self, other: &Self) -> Ordering {
         let sides = self.sides.iter().zip(&other.sides);
         let orders = sides.map(|((a, pose_a), (b, pose_b))| {
-            // Zeros of either sign are equal.
-            let numbers = |pose: &Pose| pose.to_row_major().map(|x| x + 0.0);
-            let numbers = numbers(pose_a).into_iter().zip(numbers(pose_b));
-            numbers.fold(a.serial().cmp(&b.serial()), |order, (x, y)| {
-                order.then_with(|| x.total_cmp(&y))
-            })
+            let order = a.serial().cmp(&b.serial());
+            order.then_with(|| pose_a.order(pose_b))
         });
         orders.fold(Ordering::Equal, Ordering::then)
     }

@@ -3,6 +3,7 @@
 mod beside_sets;
 mod cancelled_places;
 mod certificate_forgeries;
+mod certificate_histories;
 mod certificate_sets;
 mod certificates;
 mod clear_pairs;
