@@ -58,3 +58,5 @@ Obstacles boxes_and_ball() {
     all.surfaces.push_back(bumpy_ball({0.62, 0.1, 0.3}, 0.15, 32, 32));
     return all;
 }
+
+Obstacles box_out_of_reach() { return {{{{100, 0, 0}, {0.1, 0.1, 0.1}}}, {}}; }

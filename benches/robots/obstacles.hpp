@@ -25,3 +25,6 @@ Obstacles boxes_around();
 
 /// These, and a bumpy ball of 2,048 triangles over the table.
 Obstacles boxes_and_ball();
+
+/// A box that none of the robots comes near.
+Obstacles box_out_of_reach();

@@ -80,3 +80,12 @@ std::vector<Way> Ours::ways(const cstk::CObject &cobject, Query query,
                  return context->within(cobject, at[i], 0) ? 1.0 : 0.0;
              }}};
 }
+
+Way Ours::kinematics(const std::vector<std::vector<double>> &at) const {
+    const auto poses = std::make_shared<std::vector<double>>(12 * space_.link_count());
+    return {"link poses", [=, &at, this](std::size_t i) {
+                cstk::check(cstk_space_link_poses(space_.get(), at[i].data(), at[i].size(), poses->data(),
+                                                  space_.link_count()));
+                return 0.0;
+            }};
+}

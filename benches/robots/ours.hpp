@@ -26,6 +26,9 @@ class Ours {
     static std::vector<Way> ways(const cstk::CObject &cobject, Query query,
                                  const std::vector<std::vector<double>> &at);
 
+    /// Where the links are, and nothing else.
+    Way kinematics(const std::vector<std::vector<double>> &at) const;
+
   private:
     explicit Ours(cstk::Robot robot) : robot_(std::move(robot)), space_(robot_) {}
 

@@ -29,6 +29,9 @@ class Peer {
     /// All ways, the plainest first: its answers are what the others are held against.
     std::vector<Way> ways(const Tested &tested, Query query, const Poses &poses) const;
 
+    /// Where the links and their shapes are, and nothing else.
+    Way kinematics(const Poses &poses) const;
+
   private:
     struct Robots;
     std::unique_ptr<Robots> robots_;

@@ -221,6 +221,15 @@ std::vector<Way> Peer::ways(const Tested &tested, Query query, const Poses &pose
     return ways;
 }
 
+Way Peer::kinematics(const Poses &poses) const {
+    const auto scene = std::make_shared<PeerScene>(robots_->model, robots_->scene(coal::BV_OBB, {}));
+    scene->poses = std::make_shared<const Configurations>(configurations(robots_->model, poses));
+    return {"link poses", [scene](std::size_t i) {
+                scene->place(i);
+                return 0.0;
+            }};
+}
+
 PeerScene::PeerScene(const pin::Model &model, const pin::GeometryModel &geometry)
     : model(model), data(model), geometry(geometry), placed(this->geometry) {}
 

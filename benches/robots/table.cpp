@@ -47,18 +47,31 @@ struct Fastest {
     double time = INFINITY;
 };
 
-Fastest fastest_of(const std::vector<Way> &ways, const std::vector<std::vector<double>> &times) {
+Fastest fastest_of(const std::vector<Way> &ways, const double *times) {
     Fastest found;
     for (std::size_t i = 0; i < ways.size(); ++i) {
-        const double time = median(times[i]);
-        if (time < found.time) {
-            found = {&ways[i], time};
+        if (times[i] < found.time) {
+            found = {&ways[i], times[i]};
         }
     }
     return found;
 }
 
 } // namespace
+
+std::vector<double> medians(const std::vector<Way> &ways, std::size_t passes, std::size_t poses) {
+    std::vector<std::vector<double>> times(ways.size());
+    for (std::size_t run = 0; run < passes; ++run) {
+        for (std::size_t i = 0; i < ways.size(); ++i) {
+            times[i].push_back(pass(ways[i], poses));
+        }
+    }
+    std::vector<double> found;
+    for (std::vector<double> &of_way : times) {
+        found.push_back(median(std::move(of_way)));
+    }
+    return found;
+}
 
 std::vector<double> Table::answers(const Way &way) const {
     std::vector<double> found;
@@ -143,16 +156,11 @@ void Table::row(const Row &row, const std::vector<Way> &ours, std::vector<Way> p
     for (const Way &peer : peers) {
         compare(row, expected, peer, answers(peer));
     }
-    std::vector<std::vector<double>> our_times(ours.size()), peer_times(peers.size());
-    for (std::size_t run = 0; run < passes_; ++run) {
-        for (std::size_t i = 0; i < ours.size(); ++i) {
-            our_times[i].push_back(pass(ours[i], poses_));
-        }
-        for (std::size_t i = 0; i < peers.size(); ++i) {
-            peer_times[i].push_back(pass(peers[i], poses_));
-        }
-    }
-    const Fastest our = fastest_of(ours, our_times), peer = fastest_of(peers, peer_times);
+    std::vector<Way> all = ours;
+    all.insert(all.end(), peers.begin(), peers.end());
+    const std::vector<double> times = medians(all, passes_, poses_);
+    const Fastest our = fastest_of(ours, times.data());
+    const Fastest peer = fastest_of(peers, times.data() + ours.size());
     const double ratio = peer.time / our.time;
     const auto meeting = std::count_if(expected.begin(), expected.end(), [&](double answer) {
         return row.query == Query::collide ? answer == 1 : answer == 0;

@@ -12,6 +12,9 @@ struct Row {
     Query query;
 };
 
+/// Nanoseconds a pose: the median of so many passes of each way, in turn.
+std::vector<double> medians(const std::vector<Way> &ways, std::size_t passes, std::size_t poses);
+
 class Table {
   public:
     /// Each row is measured in so many passes over so many poses.
