@@ -84,8 +84,7 @@ std::vector<Way> Ours::ways(const cstk::CObject &cobject, Query query,
 Way Ours::kinematics(const std::vector<std::vector<double>> &at) const {
     const auto poses = std::make_shared<std::vector<double>>(12 * space_.link_count());
     return {"link poses", [=, &at, this](std::size_t i) {
-                cstk::check(cstk_space_link_poses(space_.get(), at[i].data(), at[i].size(), poses->data(),
-                                                  space_.link_count()));
+                cstk::check(cstk_space_link_poses(space_.get(), at[i].data(), at[i].size(), poses->data()));
                 return 0.0;
             }};
 }

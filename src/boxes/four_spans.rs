@@ -1,7 +1,9 @@
 //! Nodes from the spans of their boxes, four boxes at a time in lanes.
 
 use super::refit::{AXIS_ROUNDING, AxisSpans};
-use super::wide_node::{AXIS_STEP, MAX_AXIS, MAX_HALF, MAX_PLACE, WideNode, size_code_of};
+use super::wide_node::{
+    AXIS_STEP, AXIS_UNITS, MAX_AXIS, MAX_HALF, MAX_PLACE, WideNode, size_code_of,
+};
 use crate::lanes::{F64x4, Points64, cross64, dot64, each3, splat64, sub64};
 
 /// The spans of four boxes, one in each lane (see [`AxisSpans`]).
@@ -90,7 +92,7 @@ impl FourSpans {
     #[inline(always)]
     fn set_axes(&mut self, first: &Points64, second: &Points64) {
         let (least, most) = (F64x4::splat(-MAX_AXIS), F64x4::splat(MAX_AXIS));
-        let number = |x: F64x4| (x * 32768.0).max(least).min(most).nearest_integers();
+        let number = |x: F64x4| (x * AXIS_UNITS).max(least).min(most).nearest_integers();
         self.numbers = [each3(|k| number(first[k])), each3(|k| number(second[k]))];
         // In single precision, as the node computes them.
         let axis = |i: usize, k: usize| each4(|lane| self.numbers[i][k][lane] as f32 * AXIS_STEP);

@@ -15,6 +15,6 @@ pub use four_spans::FourSpans;
 pub use oriented_box::oriented_box;
 pub use packed_box::{PackedBox, fitted_axes, simply_fitted_axes};
 pub use refit::{AxisSpans, BoxMotion, StoredAxes};
+pub(crate) use wide_node::{AXIS_UNITS, MAX_AXIS, MAX_PLACE};
 pub use wide_node::{ChildPoints, EightBoxes, SIZE_STEPS, WideNode};
-pub(crate) use wide_node::{MAX_AXIS, MAX_PLACE};
 pub use wide_node_bytes::NODE_BYTES;

@@ -1,6 +1,6 @@
 //! The spans of boxes whose axes are known: those of an existing node, turned or kept. No axes are searched for.
 
-use super::wide_node::{AXIS_STEP, MAX_AXIS, WideNode};
+use super::wide_node::{AXIS_STEP, AXIS_UNITS, MAX_AXIS, WideNode};
 use crate::lanes::{cross3, each3};
 use crate::pose::{Mat3, Vec3};
 
@@ -23,7 +23,7 @@ impl StoredAxes {
         let numbers = [first, second].map(|axis| {
             each3(|k| {
                 // The nearest whole number.
-                let component = (axis[k] * 32768.0).clamp(-MAX_AXIS, MAX_AXIS);
+                let component = (axis[k] * AXIS_UNITS).clamp(-MAX_AXIS, MAX_AXIS);
                 (component + 0.5f64.copysign(component)) as i16
             })
         });

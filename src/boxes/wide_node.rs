@@ -10,8 +10,10 @@ use super::packed_box::PackedBox;
 use crate::lanes::{Instructions, Lanes8, Triple, cross3, each3};
 use crate::pose::{Mat3, Vec3};
 
-/// The unit of the components of an axis, which are integers.
-pub(super) const AXIS_STEP: f32 = 1.0 / 32768.0;
+/// The components of an axis are integers, so many to 1.
+pub(crate) const AXIS_UNITS: f64 = 32768.0;
+/// Their unit.
+pub(super) const AXIS_STEP: f32 = 1.0 / AXIS_UNITS as f32;
 /// The largest component of an axis.
 pub(crate) const MAX_AXIS: f64 = 32767.0;
 /// The largest coordinate of a centre, in steps.
@@ -189,7 +191,7 @@ impl WideNode {
         };
         for k in 0..3 {
             for i in 0..2 {
-                let component = (axes[(k, i)] * 32768.0).round();
+                let component = (axes[(k, i)] * AXIS_UNITS).round();
                 self.axes[i][k][lane] = component.clamp(-MAX_AXIS, MAX_AXIS) as i16;
             }
         }

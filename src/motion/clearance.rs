@@ -139,6 +139,13 @@ struct ClearanceBounds {
 }
 
 impl ClearanceBounds {
+    /// Whether they are as near to each other as is asked for.
+    fn are_within(&self, options: &ClearanceOptions) -> bool {
+        let upper = self.nearest.upper();
+        self.proved
+            .is_some_and(|proved| upper - proved <= options.allowed(upper))
+    }
+
     fn lower(&self) -> f64 {
         self.proved.unwrap_or(0.0)
     }
@@ -167,6 +174,55 @@ const MAX_SHORT_STEPS: i32 = 2;
 
 /// A proof is tried at this part of the tolerance below the upper bound: less than 1 for the rounding of the difference.
 pub(super) const STEP: f64 = 0.99;
+
+/// The proofs that were tried.
+struct Attempts {
+    /// The threshold of a proof that failed without finding a smaller distance: rounding decides there.
+    ceiling: f64,
+    /// So many failed since the last that did not.
+    failures: i32,
+}
+
+/// A proof to be tried.
+struct Attempt {
+    threshold: f64,
+    /// The upper bound, and how far below it the threshold is meant to be.
+    upper: f64,
+    step: f64,
+}
+
+impl Attempts {
+    /// `None` where there is nothing to ask for between what is proved and what is found.
+    fn next(&self, bounds: &ClearanceBounds, options: &ClearanceOptions) -> Option<Attempt> {
+        let (lower, upper) = (bounds.lower(), bounds.nearest.upper());
+        let allowed = options.allowed(upper);
+        if self.ceiling - lower <= 0.25 * allowed {
+            return None;
+        }
+        // Longer steps keep the proofs few, even if each failure lowers the upper bound by hardly more than the tolerance.
+        let longer = allowed * 4f64.powi((self.failures - MAX_SHORT_STEPS).max(0));
+        let half = 0.5 * (upper - lower);
+        let step = STEP * allowed.max(longer.min(half));
+        let mut threshold = options.below(upper, step);
+        if threshold >= self.ceiling {
+            threshold = 0.5 * (lower + self.ceiling);
+        }
+        let is_proved = bounds.proved.is_some_and(|proved| threshold <= proved);
+        (!is_proved).then_some(Attempt {
+            threshold,
+            upper,
+            step,
+        })
+    }
+
+    /// An attempt failed, and the upper bound is this now.
+    fn failed(&mut self, attempt: &Attempt, upper: f64) {
+        if upper.is_infinite() || upper > attempt.upper - 0.5 * attempt.step {
+            self.ceiling = attempt.threshold;
+        }
+        self.failures += 1;
+    }
+}
 
 impl QueryContext {
     /// The least distance from a C-object, a union of induced and pure sets, along the motion from q0 to q1, as
@@ -235,34 +291,18 @@ impl QueryContext {
             return Ok(ClearanceOutcome::Hit);
         }
         let is_empty = nearest.distance.kind == DistanceKind::Empty;
-        // The threshold of a proof that failed without finding a smaller distance: rounding decides there.
-        let mut ceiling = f64::INFINITY;
-        let mut failures = 0;
+        let mut attempts = Attempts {
+            ceiling: f64::INFINITY,
+            failures: 0,
+        };
         for _ in 0..MAX_PROOFS {
-            let upper = bounds.nearest.upper();
-            let allowed = options.allowed(upper);
-            if !is_empty
-                && bounds
-                    .proved
-                    .is_some_and(|proved| upper - proved <= allowed)
-            {
+            if !is_empty && bounds.are_within(options) {
                 return Ok(ClearanceOutcome::Known);
             }
-            if ceiling - bounds.lower() <= 0.25 * allowed {
+            let Some(attempt) = attempts.next(bounds, options) else {
                 break;
-            }
-            // Longer steps keep the proofs few, even if each failure lowers the upper bound by hardly more than the tolerance.
-            let longer = allowed * 4f64.powi((failures - MAX_SHORT_STEPS).max(0));
-            let half = 0.5 * (upper - bounds.lower());
-            let step = STEP * allowed.max(longer.min(half));
-            let mut threshold = options.below(upper, step);
-            if threshold >= ceiling {
-                threshold = 0.5 * (bounds.lower() + ceiling);
-            }
-            // Where no upper bound is known there is nothing between it and what is proved to ask for.
-            if bounds.proved.is_some_and(|proved| threshold <= proved) {
-                break;
-            }
+            };
+            let threshold = attempt.threshold;
             let at_threshold = MotionOptions {
                 threshold,
                 ..any_contact
@@ -278,7 +318,7 @@ impl QueryContext {
                     if threshold >= options.max_distance {
                         return Ok(ClearanceOutcome::BeyondMax);
                     }
-                    failures = 0;
+                    attempts.failures = 0;
                 }
                 MotionOutcome::Hit | MotionOutcome::Near => {
                     let found = self.sample(way, answer.times[1], f64::INFINITY)?;
@@ -290,11 +330,7 @@ impl QueryContext {
                     if found.upper().is_finite() {
                         self.descend(way, found, options, bounds)?;
                     }
-                    let now = bounds.nearest.upper();
-                    if now.is_infinite() || now > upper - 0.5 * step {
-                        ceiling = threshold;
-                    }
-                    failures += 1;
+                    attempts.failed(&attempt, bounds.nearest.upper());
                 }
                 MotionOutcome::Undecided => return Ok(ClearanceOutcome::Undecided),
             }

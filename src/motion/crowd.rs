@@ -13,7 +13,7 @@ use crate::boxes::{BoxesByEight, PackedBox};
 use crate::convex::Extension;
 use crate::hierarchy::packed::power_of_two_above;
 use crate::lanes::each3;
-use crate::pair::{ROUNDING, Twist32, sum_factor};
+use crate::pair::{ROUNDING, SingleUnits, Twist32, sum_factor};
 use crate::pose::{Pose, Vec3, turned};
 use crate::tolerance;
 
@@ -122,22 +122,19 @@ impl Crowd {
         let error = tolerance::DISTANCE_ERROR * 2.0 * size + a.deviation() + self.deviation;
         let slack = tolerance::BOUND_ERROR * 2.0 * size + 2.0 * error + moved.kinematics_error;
         let lowered = slack * (1.0 + shift / size) + ROUNDING * (size + shift);
-        let inverse = self.inverse;
-        let [with_a, with_b] = moved
-            .bends
-            .map(|x| ((x * inverse) as f32).next_up() * 1.001);
+        let units = SingleUnits {
+            inverse: self.inverse,
+        };
+        let [with_a, with_b] = units.bends(moved.bends);
         CrowdOver {
-            one: RootBox::new(a, pose).seen_from(&self.origin, inverse),
+            one: RootBox::new(a, pose).seen_from(&self.origin, self.inverse),
             twists: P::Lists::map(&moved.displacements, |by| {
                 let at_origin = by.linear - by.angular.cross(&center);
-                Twist32 {
-                    angular: each3(|k| by.angular[k] as f32),
-                    linear: each3(|k| (at_origin[k] * inverse) as f32),
-                }
+                units.twist(&at_origin, &by.angular)
             }),
             extension: moved.extension,
             bends: [with_b, with_a],
-            cutoff: (((pair.threshold + lowered) * inverse) as f32).next_up(),
+            cutoff: units.above(pair.threshold + lowered),
         }
     }
 }

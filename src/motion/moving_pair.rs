@@ -9,11 +9,10 @@ use super::span::Span;
 use crate::body::Body;
 use crate::convex::Extension;
 use crate::hierarchy::packed::power_of_two_above;
-use crate::lanes::each3;
 use crate::pair::{
-    Motion32, Pairing, PrimitiveScratch, ROUNDING, SweptLimits, Twist32, sum_factor,
+    Motion32, Pairing, PrimitiveScratch, ROUNDING, SingleUnits, SweptLimits, sum_factor,
 };
-use crate::pose::{Displacement, Pose, Vec3};
+use crate::pose::{Displacement, Pose};
 use crate::robot::{ChainRounding, LinkMotions, MotionRates};
 use crate::tolerance::SUM_SLACK;
 
@@ -277,19 +276,17 @@ impl<'a> MovingPair<'a> {
         let pairing = Pairing::new(a, pose_a, b, pose_b);
         let size = pairing.precision.size;
         let scale = power_of_two_above(size);
-        let inverse = 1.0 / scale;
+        let units = SingleUnits {
+            inverse: 1.0 / scale,
+        };
         let [tree_a, tree_b] = [a.packed(), b.packed()];
         let to_b = &pairing.relative;
         let displacements = L::map(&moved.displacements, |by| by.turned_back(&pose_a.rotation));
-        let twist = |linear: Vec3, angular: Vec3| Twist32 {
-            angular: each3(|k| angular[k] as f32),
-            linear: each3(|k| (linear[k] * inverse) as f32),
-        };
         // As A sees it, B moves the other way: what one box makes of its own motion has to be the motion of that box.
-        let in_a = L::map(&displacements, |by| twist(-by.linear, -by.angular));
+        let in_a = L::map(&displacements, |by| units.twist(&-by.linear, &-by.angular));
         let in_b = L::map(&displacements, |by| {
             let in_b = by.told_of(&to_b.translation).turned_back(&to_b.rotation);
-            twist(in_b.linear, in_b.angular)
+            units.twist(&in_b.linear, &in_b.angular)
         });
         // Displacements are lengths like others: what they are rounded to, gaps lose too.
         let (mut moved_at_size, mut displacement, mut turn) = (0.0, bends[1], 0.0);
@@ -309,23 +306,22 @@ impl<'a> MovingPair<'a> {
         let slack = (pairing.slack() + moved.kinematics_error) * larger;
         let cores = tree_a.core_radius() + tree_b.core_radius();
         let lowered = slack + ROUNDING * (size + moved_at_size) + cores;
-        let in_units = |gap: f64| (((gap + lowered) * inverse) as f32).next_up();
+        let gap_above = |gap: f64| units.above(gap + lowered);
         OverPiece {
             motions: [
                 Motion32::new(to_b, tree_b.scale(), scale),
                 Motion32::new(&to_b.inverse(), tree_a.scale(), scale),
             ],
             twists: [in_a, in_b],
-            // A thousandth covers the axes' lengths in single precision: see `pair::box_bounds`.
-            bends: box_bends.map(|x| ((x * inverse) as f32).next_up() * 1.001),
-            cutoff: in_units(self.threshold),
-            within: in_units((self.threshold - displacement).max(0.0)),
+            bends: units.bends(box_bends),
+            cutoff: gap_above(self.threshold),
+            within: gap_above((self.threshold - displacement).max(0.0)),
             limits: SweptLimits {
                 threshold: self.threshold,
                 slack,
                 displacement,
             },
-            core_radii: [tree_a, tree_b].map(|tree| (tree.core_radius() * inverse) as f32),
+            core_radii: [tree_a, tree_b].map(|tree| (tree.core_radius() * units.inverse) as f32),
             displacements,
             extension: moved.extension,
             sweep_bends: bends,

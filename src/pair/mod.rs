@@ -32,7 +32,9 @@ pub use pairing::Pairing;
 pub use rounds::{Rounds, are_spheres, only_rounds};
 pub use shortlist::{Ranked, Shortlist};
 pub use singles::{Singles, SinglesNearest};
-pub use swept_bounds::{BoxSweep, GapsWanted, SweptGaps, Twist32, sum_factor, swept_gaps};
+pub use swept_bounds::{
+    BoxSweep, GapsWanted, SingleUnits, SweptGaps, Twist32, sum_factor, swept_gaps,
+};
 pub use swept_leaves::{SweptLeaves, SweptLimits};
 pub use traversal::{Scratch, traverse, visit_pair};
 pub use visitor::{PrimitivePair, Visitor, Wanted};

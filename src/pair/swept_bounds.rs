@@ -33,7 +33,8 @@
 use super::box_bounds::{AXIS_FACTOR, apart, diagonals, dot, extent_along, splat};
 use crate::boxes::{EightBoxes, PackedBox};
 use crate::convex::Extension;
-use crate::lanes::{Instructions, Lanes8, Triple, cross3, each_axis};
+use crate::lanes::{Instructions, Lanes8, Triple, cross3, each_axis, each3};
+use crate::pose::Vec3;
 
 /// Velocities times the time from where boxes are compared to the end of the interval, in units of the pair.
 #[derive(Clone, Copy, Debug)]
@@ -41,6 +42,34 @@ pub struct Twist32 {
     pub angular: [f32; 3],
     /// Of what is at the origin of the frame.
     pub linear: [f32; 3],
+}
+
+/// Lengths in single precision, as what boxes are compared by has them: times the inverse of a unit.
+#[derive(Clone, Copy)]
+pub struct SingleUnits {
+    pub inverse: f64,
+}
+
+impl SingleUnits {
+    #[inline(always)]
+    pub fn twist(self, linear: &Vec3, angular: &Vec3) -> Twist32 {
+        Twist32 {
+            angular: each3(|k| angular[k] as f32),
+            linear: each3(|k| (linear[k] * self.inverse) as f32),
+        }
+    }
+
+    /// No less than a length.
+    #[inline(always)]
+    pub fn above(self, length: f64) -> f32 {
+        ((length * self.inverse) as f32).next_up()
+    }
+
+    /// [`BoxSweep::bends`]: a thousandth covers the axes' lengths in single precision (see `pair::box_bounds`).
+    #[inline(always)]
+    pub fn bends(self, bends: [f64; 2]) -> [f32; 2] {
+        bends.map(|x| self.above(x) * 1.001)
+    }
 }
 
 /// How one box moves against eight others, from where they are compared.

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
+use super::scene::Group;
 use crate::cobject::{CObject, Induced, PureSet, Set};
 
 /// The leaves of a C-object, without duplicates: unions of induced sets, and pure sets, with `true` where the complement is
@@ -14,6 +15,14 @@ pub(super) struct Leaves<'a> {
 }
 
 impl CObject {
+    /// The induced sets of a union that has no other parts, as most C-objects are; none twice.
+    pub(super) fn only_group(&self) -> Option<&Group> {
+        match self.set() {
+            Set::Union { induced, others } if others.is_empty() => Some(induced),
+            _ => None,
+        }
+    }
+
     /// Whether no configuration is in contact with it: it has neither contact epsilons nor pure sets, which may be open.
     pub(crate) fn never_touches(&self) -> bool {
         let Leaves { groups, pure } = Leaves::of(self);

@@ -6,7 +6,7 @@ use super::context::{QueryContext, check_threshold};
 use super::scene::{Configuration, Group, Scene};
 use super::witnesses::WitnessRequest;
 use super::world::World;
-use crate::cobject::{CObject, Class, Set};
+use crate::cobject::{CObject, Class};
 use crate::error::Result;
 
 /// Class, distance, witnesses and gradients at one configuration.
@@ -29,14 +29,6 @@ pub struct Shell {
     pub max_count: usize,
     /// Scales gradients to length 1, except those of length 0.
     pub normalize: bool,
-}
-
-/// The induced sets of a union that has no other parts, as most C-objects are.
-fn only_group(cobject: &CObject) -> Option<&Group> {
-    match cobject.set() {
-        Set::Union { induced, others } if others.is_empty() => Some(induced),
-        _ => None,
-    }
 }
 
 impl QueryContext {
@@ -68,7 +60,7 @@ impl QueryContext {
         };
         let at = Configuration::Coordinates(q);
         let mut found = self.with_scene(cobject, world, at, |context, scene| {
-            match only_group(cobject) {
+            match cobject.only_group() {
                 Some(group) => context.group_pseudo_normal(group, scene, request),
                 None => Ok(PseudoNormal {
                     class: context.class_of(cobject, scene)?,

@@ -98,6 +98,9 @@ impl QueryContext {
         scene: &Scene,
         request: WitnessRequest,
     ) -> Result<WitnessList> {
+        if let Some(group) = cobject.only_group() {
+            return self.group_witnesses(group, scene, request);
+        }
         let leaves = Leaves::of(cobject);
         let mut lists = Vec::with_capacity(leaves.groups.len() + 1);
         for group in &leaves.groups {

@@ -1,11 +1,8 @@
 //! Packs oriented boxes into nodes, four at a time.
 
 use super::oriented_box::OrientedBox;
-use crate::boxes::{MAX_AXIS, MAX_PLACE, WideNode};
+use crate::boxes::{AXIS_UNITS, MAX_AXIS, MAX_PLACE, WideNode};
 use crate::lanes::{F64x4, Points64, cross64, dot64, each3};
-
-/// The components of an axis are integers in units of 2^-15.
-const AXIS_UNITS: f64 = 32768.0;
 
 /// Up to four boxes as structure of arrays.
 pub struct FourBoxes {
