@@ -2576,7 +2576,8 @@ cstk_status cstk_space_step(const cstk_space *space,
 
 /**
  * Writes the smallest velocity that leads from `q0` to `q1` in a unit of time, nv doubles: circles go the shorter way
- * round (opposite angles the way of q1 - q0), quaternions turn by at most half a turn. From q1 to q0 it is the same way back.
+ * round (opposite angles the way of q1 - q0), quaternions turn by at most half a turn. From q1 to q0 it is the same way back, on
+ * circles to the last bit.
  */
 cstk_status cstk_space_difference(const cstk_space *space,
                                   const double *q0,

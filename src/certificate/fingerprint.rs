@@ -76,7 +76,8 @@ impl Writer {
     }
 
     fn pose(&mut self, pose: &Pose) {
-        self.numbers(&pose.to_row_major());
+        // Zeros of either sign are equal, as in [`Pose::order`].
+        self.numbers(&pose.to_row_major().map(|x| x + 0.0));
     }
 
     fn pure(&mut self, pure: &PureSet) {

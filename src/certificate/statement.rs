@@ -222,10 +222,16 @@ impl<'a> Builder<'a> {
             SSide::Object(_) => *s_pose,
             _ => Pose::identity(),
         };
-        Ok([
+        let mut sides = [
             self.side(Some(r_link), a, r_pose)?,
             self.side(s_link, b, s_pose)?,
-        ])
+        ];
+        // Of two attached objects ids say which is the first side.
+        let are_attached = r_object != 0 && s_link.is_some() && s_side.link().is_none();
+        if are_attached && sides[0].order(&sides[1]).is_gt() {
+            sides.reverse();
+        }
+        Ok(sides)
     }
 
     fn side(&mut self, link: Option<usize>, body: &'a Body, pose: Pose) -> Result<Side<'a>> {

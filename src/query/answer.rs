@@ -18,7 +18,7 @@ pub enum SSide {
 
 impl SSide {
     /// The link, if it is one.
-    pub(super) fn link(self) -> Option<usize> {
+    pub(crate) fn link(self) -> Option<usize> {
         match self {
             Self::Link(link) => Some(link),
             Self::Object(_) | Self::PureSet(_) => None,

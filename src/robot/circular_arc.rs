@@ -22,7 +22,7 @@ impl CircularArc {
             farthest: speed * (2.0 / rate).min(1.0),
             summed: speed,
             derivatives: [speed, speed * rate, speed * rate * rate],
-            degree: 0.0,
+            degree: 0,
         }
     }
 
@@ -31,7 +31,7 @@ impl CircularArc {
             farthest: self.rate,
             summed: self.rate,
             derivatives: [self.rate, 0.0, 0.0],
-            degree: 0.0,
+            degree: 0,
         }
     }
 }

@@ -55,7 +55,7 @@ pub(super) struct CourseBounds {
     /// Of the first three derivatives' absolute values.
     pub derivatives: [f64; 3],
     /// The degree of a curve: see [`curve_rounding`]. 0 for what is no curve.
-    pub degree: f64,
+    pub degree: u32,
 }
 
 impl CourseBounds {
@@ -64,7 +64,7 @@ impl CourseBounds {
         farthest: 1.0,
         summed: 1.0,
         derivatives: [0.0; 3],
-        degree: 0.0,
+        degree: 0,
     };
 }
 
@@ -123,7 +123,7 @@ impl Course {
                 farthest: start.abs().max((start + rate).abs()),
                 summed,
                 derivatives: [rate.abs(), 0.0, 0.0],
-                degree: 0.0,
+                degree: 0,
             },
             Self::Curve { first, count } => {
                 let (first, count) = (first as usize, count as usize);
@@ -138,7 +138,7 @@ impl Course {
                     farthest,
                     summed: controls[first - 1],
                     derivatives,
-                    degree: (count - 1) as f64,
+                    degree: (count - 1) as u32,
                 }
             }
             Self::Given { bounds, .. } => {
@@ -148,7 +148,7 @@ impl Course {
                     farthest,
                     summed,
                     derivatives: [rate, acceleration, UNSTATED],
-                    degree: 0.0,
+                    degree: 0,
                 }
             }
             // The way from the centre to any value in the range.
@@ -161,7 +161,7 @@ impl Course {
                 farthest: center.abs() + rate.abs(),
                 summed,
                 derivatives: [rate.abs(), 0.0, 0.0],
-                degree: 0.0,
+                degree: 0,
             },
         }
     }

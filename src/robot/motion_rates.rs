@@ -23,7 +23,7 @@ pub struct MotionRates {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ChainRounding {
     /// The number of its elements.
-    pub elements: f64,
+    pub elements: u32,
     /// The sum of the lengths of all that a place is a sum of.
     pub size: f64,
     /// The largest angle of a turn, in radians: an angle is rounded relative to itself.
@@ -31,7 +31,7 @@ pub struct ChainRounding {
     /// The sum over all turns of the bounds of their speeds.
     pub turning: f64,
     /// The highest degree of the curves along which it turns and shifts, or 0.
-    pub degree: f64,
+    pub degree: u32,
 }
 
 impl ChainRounding {
@@ -46,7 +46,7 @@ impl ChainRounding {
 
     /// Takes in an element that moves by a course within bounds.
     fn take_in_course(&mut self, bounds: &CourseBounds) {
-        self.elements += 1.0;
+        self.elements += 1;
         self.degree = self.degree.max(bounds.degree);
     }
 
@@ -61,9 +61,12 @@ impl ChainRounding {
     /// and an acceleration T^2 times. Along curves angles and shifts are off by more: see [`curve_rounding`].
     pub fn of_places(&self, radius: f64, reach: f64) -> f64 {
         let turned = reach * self.turning;
-        let on_curves = curve_rounding(self.degree, reach);
-        let of_angles = self.elements * self.angle * (2.0 + on_curves);
-        let relative = 32.0 + 10.0 * self.elements + of_angles + on_curves;
+        let elements = f64::from(self.elements);
+        let mut relative = 32.0 + elements * (10.0 + 2.0 * self.angle);
+        if self.degree > 0 {
+            let on_curves = curve_rounding(f64::from(self.degree), reach);
+            relative += (1.0 + elements * self.angle) * on_curves;
+        }
         let relative = 2.0 * DISTANCE_ERROR + relative * EPSILON;
         let moved = relative * (self.size + radius) * (1.0 + turned * (1.0 + turned));
         // Of speeds that overflow nothing is known, and no comparison with what is no number may prune.
@@ -85,7 +88,7 @@ pub struct ChainRates {
 impl ChainRates {
     /// Goes on to a frame that is fixed to the last one.
     pub fn push_fixed(&mut self, pose: &Pose) {
-        self.rates.rounding.elements += 1.0;
+        self.rates.rounding.elements += 1;
         self.carry(&pose.translation, &CourseBounds::ONE);
         if let Some((axis, _)) = &mut self.last {
             *axis = turned_back(&pose.rotation, axis);
@@ -130,7 +133,7 @@ impl ChainRates {
         self.last = None;
         // Where no axis is known the arm counts by its length alone, which is 1.
         self.carry(axis, way);
-        self.rates.rounding.elements += 1.0;
+        self.rates.rounding.elements += 1;
         self.push_turn(axis, angle);
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use cstk::cobject::CObject;
-use cstk::environment::{Change, Environment};
+use cstk::environment::{Attachment, Change, Environment};
 use cstk::motion::{MotionOptions, MotionOutcome};
 use cstk::octree::Octree;
 use cstk::pose::{Pose, Vec3};
@@ -102,5 +102,38 @@ fn environments_of_the_same_objects_are_one() {
         };
         let (one, other) = (built(), built());
         assert!(holds_in(&one, &other));
+    }
+}
+
+/// Objects that links hold, one each, whichever came first; and zeros of either sign.
+#[test]
+fn attached_objects_are_in_no_order() {
+    let space = sliders();
+    let bodies = [[0.1; 3], [0.3, 0.1, 0.1]].map(|sides| cuboid(sides).body);
+    let built = |order: [usize; 2], zero: f64| {
+        let world = Arc::new(Environment::default());
+        for k in order {
+            let at = Vec3::new(zero, -2.0 - k as f64, 1.0);
+            let pose = Pose::from_translation(at);
+            let id = world.apply(&[Change::add(bodies[k].clone(), pose)]);
+            let attachment = Attachment::new(&space, k, &[0, 1]).unwrap();
+            let attach = Change::Attach {
+                id: id.unwrap().0[0],
+                pose,
+                attachment,
+            };
+            world.apply(&[attach]).unwrap();
+        }
+        for zero in [zero, -zero] {
+            let pose = Pose::from_translation(Vec3::new(zero, 3.0, zero));
+            world
+                .apply(&[Change::add(bodies[0].clone(), pose)])
+                .unwrap();
+        }
+        against(&space, &world)
+    };
+    let one = built([0, 1], 0.0);
+    for other in [built([1, 0], 0.0), built([0, 1], -0.0), built([1, 0], -0.0)] {
+        assert!(holds_in(&one, &other) && holds_in(&other, &one));
     }
 }

@@ -163,7 +163,7 @@ fn places_are_rounded_within_the_bound_of_their_chain() {
         );
         let per_link = bound / (count as f64 * rates.rounding.size * f64::EPSILON);
         least = least.min(per_link);
-        assert_eq!(rates.rounding.elements, 2.0 * count as f64);
+        assert_eq!(rates.rounding.elements, 2 * count as u32);
     }
     assert!(least > 20.0, "{least} epsilon a link");
 }
