@@ -48,6 +48,7 @@ mod slide_step;
 mod slide_to;
 mod span;
 mod start_contacts;
+mod start_obstacle;
 mod stated_motion;
 mod step_limits;
 mod undecided;
