@@ -13,7 +13,17 @@ pub(super) struct Balls<'a> {
     pub threshold: f64,
 }
 
-impl Balls<'_> {
+impl<'a> Balls<'a> {
+    /// Of bodies that count as meeting up to a distance, and up to what they may be off by as they state.
+    #[inline]
+    pub fn of_bodies(bodies: [&'a Body; 2], threshold: f64) -> Self {
+        let [a, b] = bodies;
+        Self {
+            bodies,
+            threshold: threshold + a.stated_deviation() + b.stated_deviation(),
+        }
+    }
+
     /// Whether the balls stay apart through a piece, along the line between their centres. `apart` leads from B's centre to A's;
     /// `center_moves` bounds how far A's centre moves along it, given with its length.
     #[inline(always)]

@@ -3,23 +3,19 @@
 use std::cmp::Ordering;
 use std::ptr;
 
-use super::balls::Balls;
 use super::carried::Carried;
 use super::crowd::{Crowd, CrowdMemory};
-use super::kinematics::Kinematics;
-use super::linear_motion::{LinearMotion, STEP_FRACTION, extent};
+use super::linear_motion::{LinearMotion, STEP_FRACTION};
+use super::links_on_way::LinksOnWay;
 use super::moving_pair::MovingPair;
 use super::moving_pure::MovingPure;
 use super::moving_set::MovingLeaf;
-use super::pair_rates::PairRates;
 use super::set_tree::{LeafContent, SetLeaf, SetTree};
-use super::span::Span;
 use super::start_contacts::StartContacts;
-use super::way::{Way, WayKind};
+use super::way::Way;
 use crate::cobject::{BodyPairs, ClearPairs, Induced, LinksAndObjects, PureSet, PureShape};
 use crate::error::{Error, ErrorKind, Result};
 use crate::query::{CandidateFilter, Group, ListOrder, Placement, QueryContext, Scene, Target};
-use crate::robot::LinkMotions;
 
 /// What is to be proved of a set, whose complements are moved down to the leaves of its tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,10 +40,9 @@ fn unstated_speeds(way: &Way, term: &Induced) -> Error {
 /// Gathers the leaves of a set on a motion, and the pairs that the motion may bring near.
 pub(super) struct Gathering<'a, 'k> {
     way: &'a Way<'a>,
-    /// [`Way::rounding`] of it.
-    rounding: Vec<f64>,
-    rates: PairRates<'a>,
-    middle: Option<&'k mut Kinematics<'a>>,
+    /// At the middle.
+    scene: &'a Scene<'a>,
+    pub links: LinksOnWay<'a, 'k>,
     threshold: f64,
     keeps: Keeps,
     is_plain: bool,
@@ -57,27 +52,24 @@ pub(super) struct Gathering<'a, 'k> {
     pub pairs: Vec<MovingPair<'a>>,
     /// The proof does not see whether the start is free: pairs that rest, and bodies inside others.
     pub needs_start: bool,
-    /// How far links' bodies go from where they are at the middle, where that was asked for.
-    shifts: Vec<Option<f64>>,
     /// Of a motion that is known not to begin inside: what touches at its start.
     pub start: Option<&'a StartContacts>,
 }
 
 impl<'a, 'k> Gathering<'a, 'k> {
-    /// On an interval of time; `middle` are the kinematics at its middle. Without them in a box of configurations.
+    /// On the way that the links are looked at on, whose middle the scene is at.
     pub fn new(
         way: &'a Way<'a>,
-        motions: &'a LinkMotions,
+        scene: &'a Scene<'a>,
+        links: LinksOnWay<'a, 'k>,
         threshold: f64,
         tree: &SetTree,
         keeps: Keeps,
-        middle: Option<&'k mut Kinematics<'a>>,
     ) -> Self {
         Self {
             way,
-            rounding: way.rounding(),
-            rates: PairRates::new(motions),
-            middle,
+            scene,
+            links,
             threshold,
             keeps,
             is_plain: tree.is_plain_union(),
@@ -85,22 +77,16 @@ impl<'a, 'k> Gathering<'a, 'k> {
             leaves: Vec::with_capacity(tree.leaves.len()),
             pairs: Vec::new(),
             needs_start: false,
-            shifts: Vec::new(),
             start: None,
         }
     }
 
-    /// Adds a leaf of the tree; in the order of the tree's leaves. The scene is that at the middle.
-    pub fn add(
-        &mut self,
-        leaf: &SetLeaf<'a>,
-        scene: &'a Scene,
-        context: &mut QueryContext,
-    ) -> Result<()> {
+    /// Adds a leaf of the tree; in the order of the tree's leaves.
+    pub fn add(&mut self, leaf: &SetLeaf<'a>, context: &mut QueryContext) -> Result<()> {
         let complement = leaf.complement;
         self.complement = complement;
         let moving = match leaf.content {
-            LeafContent::Pure(set) => self.pure(set, scene)?,
+            LeafContent::Pure(set) => self.pure(set)?,
             LeafContent::Known(sets) => MovingLeaf::Known {
                 sets: sets.clone(),
                 complement,
@@ -109,7 +95,7 @@ impl<'a, 'k> Gathering<'a, 'k> {
             LeafContent::Induced(_) if complement && self.threshold > 0.0 => MovingLeaf::Everything,
             LeafContent::Induced(group) => {
                 for term in 0..group.len() {
-                    self.add_pairs(&group[term..=term], scene, context)?;
+                    self.add_pairs(&group[term..=term], context)?;
                 }
                 MovingLeaf::Pairs { complement }
             }
@@ -118,9 +104,10 @@ impl<'a, 'k> Gathering<'a, 'k> {
         Ok(())
     }
 
-    fn pure(&mut self, set: &PureSet, scene: &Scene) -> Result<MovingLeaf> {
+    fn pure(&mut self, set: &PureSet) -> Result<MovingLeaf> {
         let (way, complement) = (self.way, self.complement);
-        let places = &mut |link| self.rates.rounding_of_link(link, scene.poses());
+        let rates = &self.links.rates;
+        let places = &mut |link| rates.rounding_of_link(link, self.scene.poses());
         let is_predicate = matches!(set.shape, PureShape::Predicate(_));
         if let Some(start) = self.start {
             return Ok(MovingLeaf::Pure(MovingPure::after_start(
@@ -149,12 +136,8 @@ impl<'a, 'k> Gathering<'a, 'k> {
     }
 
     /// Adds the pairs of one induced set. Its outside begins where distances exceed the contact epsilon.
-    fn add_pairs(
-        &mut self,
-        term: &'a Group,
-        scene: &'a Scene,
-        context: &mut QueryContext,
-    ) -> Result<()> {
+    fn add_pairs(&mut self, term: &'a Group, context: &mut QueryContext) -> Result<()> {
+        let scene = self.scene;
         let is_outside_meant = self.complement != (self.keeps == Keeps::In);
         let threshold = if is_outside_meant {
             term[0].options.contact_epsilon
@@ -165,9 +148,9 @@ impl<'a, 'k> Gathering<'a, 'k> {
             let meter = context.scratch.meter_mut();
             meter.count_nodes(pairs.len() as u64);
             meter.check()?;
-            return self.add_link_pairs(pairs, clear.as_deref(), threshold, &term[0], scene);
+            return self.add_link_pairs(pairs, clear.as_deref(), threshold, &term[0]);
         }
-        let farthest = self.farthest(&term[0], scene);
+        let farthest = self.farthest(&term[0]);
         if farthest.is_infinite() {
             return Err(unstated_speeds(self.way, &term[0]));
         }
@@ -186,15 +169,14 @@ impl<'a, 'k> Gathering<'a, 'k> {
         // Those of one body together, what is near first.
         let mut order: Vec<(usize, u64, OrderedBound, usize)> = Vec::with_capacity(found.len());
         for (place, target) in found.iter().enumerate() {
-            let shift = self.shift(scene, target);
-            if may_meet(target.bound, threshold, shift) {
+            if self.may_come_near(target, threshold) {
                 let (link, object, _) = target.ids();
                 order.push((link, object, OrderedBound(target.bound), place));
             }
         }
         order.sort_unstable();
         for (.., place) in order {
-            self.add_pair(&found[place], threshold, &term[0], scene)?;
+            self.add_pair(&found[place], threshold, &term[0])?;
         }
         context.candidates.keep(found);
         Ok(())
@@ -207,13 +189,13 @@ impl<'a, 'k> Gathering<'a, 'k> {
         clear: Option<&ClearPairs>,
         threshold: f64,
         term: &Induced,
-        scene: &'a Scene,
     ) -> Result<()> {
+        let scene = self.scene;
         let clear = clear.filter(|_| threshold <= term.options.contact_epsilon);
         let mut near: Vec<([usize; 2], f64)> = Vec::new();
         for &[r, s] in pairs {
             let limit = threshold + term.options.margin;
-            if self.links_stay_apart([r, s], limit, scene) {
+            if self.links.stay_apart([r, s], limit) {
                 continue;
             }
             let known = clear.and_then(|pairs| pairs.of([r, s]));
@@ -227,8 +209,8 @@ impl<'a, 'k> Gathering<'a, 'k> {
             let [lower, _] = a.distance(&b);
             let bound = lower - term.options.margin;
             // The distance of two bodies changes by no more than both move in the world.
-            let shift = self.shift_of_link(scene, r) + self.shift_of_link(scene, s);
-            if may_meet(bound, threshold, shift) {
+            let mut shift = || self.links.shift(r) + self.links.shift(s);
+            if may_meet(bound, threshold, 0.0) || may_meet(bound, threshold, shift()) {
                 near.push(([s, r], bound));
             }
         }
@@ -243,44 +225,27 @@ impl<'a, 'k> Gathering<'a, 'k> {
                 bound,
                 ..scene.link_pair([r, s], [a, b])
             };
-            self.add_pair(&target, threshold, term, scene)?;
+            self.add_pair(&target, threshold, term)?;
         }
         Ok(())
     }
 
-    /// Whether the balls around two links' bodies stay apart the whole time. How both move in the world says so of most pairs, before
-    /// any pair has rates of its own.
-    fn links_stay_apart(&mut self, links: [usize; 2], limit: f64, scene: &'a Scene) -> bool {
-        let Some(middle) = &mut self.middle else {
-            return false;
-        };
-        let [Some(a), Some(b)] = links.map(|link| Some(carried(scene, link, scene.link(link)?)))
-        else {
-            return false;
-        };
-        let [Some(of_a), Some(of_b)] = [&a, &b].map(|body| self.rates.of_body(body)) else {
-            return false;
-        };
-        let bodies = [a.body, b.body];
-        let stated_deviation = a.body.stated_deviation() + b.body.stated_deviation();
-        let balls = Balls {
-            bodies,
-            threshold: limit + stated_deviation,
-        };
-        let error = [(&a, &of_a), (&b, &of_b)]
-            .map(|(body, rates)| rates.rounding.of_places(body.body.radius(), 0.5));
-        let bounds = [1, 2].map(|k| of_a.origin[k] + of_b.origin[k]);
-        let center = middle.center_from_center(&a, &b);
-        balls.stay_apart_over(&center, bounds, Span::Around(0.5), error[0] + error[1])
+    /// Whether the motion may bring a body among s-objects within a distance of one of them.
+    fn may_come_near(&mut self, target: &Target, threshold: f64) -> bool {
+        let (link, s_link) = target.links();
+        let (_, attached, _) = target.ids();
+        let links = &mut self.links;
+        if s_link.is_some() || attached != 0 {
+            return may_meet(target.bound, threshold, links.shift_of_pair(target));
+        }
+        // Most are near at the middle, or far off by the speeds of joints.
+        may_meet(target.bound, threshold, 0.0)
+            || may_meet(target.bound, threshold, links.shift_by_speed(link))
+                && may_meet(target.bound, threshold, links.shift(link))
     }
 
-    fn add_pair(
-        &mut self,
-        target: &Target<'a>,
-        threshold: f64,
-        term: &Induced,
-        scene: &'a Scene,
-    ) -> Result<()> {
+    fn add_pair(&mut self, target: &Target<'a>, threshold: f64, term: &Induced) -> Result<()> {
+        let scene = self.scene;
         // Where bodies may differ from what they stand for, that two meet is never proved.
         if self.complement && target.stated_deviation() > 0.0 {
             return Ok(());
@@ -308,19 +273,22 @@ impl<'a, 'k> Gathering<'a, 'k> {
         let limit = threshold + target.options.margin;
         let leaf = self.leaves.len() as u32;
         let line = &self.way.line;
+        let LinksOnWay {
+            rates, rounding, ..
+        } = &mut self.links;
         let speed = || {
             let off_the_way = LinearMotion {
-                v: &self.rounding,
+                v: rounding,
                 ..*line
             };
             [line.rate(scene, target), off_the_way.rate(scene, target)]
         };
-        let pair = MovingPair::new(a, b, limit, leaf, &mut self.rates, speed);
+        let pair = MovingPair::new(a, b, limit, leaf, rates, speed);
         let mut pair = pair.ok_or_else(|| unstated_speeds(self.way, term))?;
         if let Some(start) = self.start {
             pair.followed_from = start.pair_followed_from(term, target);
         }
-        let shift = self.share() * pair.speed() + pair.rounding_all_the_while();
+        let shift = self.links.share() * pair.speed() + pair.rounding_all_the_while();
         if pair.followed_from >= 1.0 || !may_meet(target.bound, threshold, shift) {
             return Ok(());
         }
@@ -356,13 +324,13 @@ impl Ord for OrderedBound {
 
 impl<'a> Gathering<'a, '_> {
     /// The pairs of a body among objects that rest, which stand together.
-    pub fn crowds(&self, scene: &Scene, memory: &mut CrowdMemory) -> Vec<Crowd> {
+    pub fn crowds(&self, memory: &mut CrowdMemory) -> Vec<Crowd> {
         let mut crowds = Vec::new();
         memory.at_rest.start();
         let mut first = 0;
         for run in self.pairs.chunk_by(MovingPair::is_in_crowd_of) {
             if run.len() > 1 {
-                let origin = scene.poses()[run[0].link()].translation;
+                let origin = self.scene.poses()[run[0].link()].translation;
                 crowds.push(Crowd::new(first, run, origin, memory));
             }
             first += run.len() as u32;
@@ -370,20 +338,13 @@ impl<'a> Gathering<'a, '_> {
         crowds
     }
 
-    /// The largest part of a motion that lies between the middle and any other time.
-    fn share(&self) -> f64 {
-        match self.way.kind {
-            WayKind::Line | WayKind::Curve { .. } | WayKind::Stated(_) => 0.5,
-            WayKind::Box { .. } => 1.0,
-        }
-    }
-
     /// Bounds the change of the distance of any pair of an induced set, from the middle to any other time.
-    fn farthest(&mut self, term: &Induced, scene: &'a Scene) -> f64 {
+    fn farthest(&mut self, term: &Induced) -> f64 {
+        let scene = self.scene;
         if let BodyPairs::Objects(LinksAndObjects { links, objects, .. }) = &term.pairs {
             let environment = objects.environment().serial();
             if scene.held_of(environment).next().is_none() {
-                let shifts = links.iter().map(|&link| self.shift_of_link(scene, link));
+                let shifts = links.iter().map(|&link| self.links.shift_for_search(link));
                 return shifts.fold(0.0, f64::max);
             }
         }
@@ -398,71 +359,10 @@ impl<'a> Gathering<'a, '_> {
             .filter_map(|link| Some(scene.link(link)?.0.radius_from_origin()));
         let largest = own.chain(held).fold(0.0, f64::max);
         let links = 0..scene.poses().len();
-        let roundings = links.map(|link| self.rounding_of_link(scene, link, largest));
+        let roundings = links.map(|link| self.links.rounding_of_link(link, largest));
         let rounding = roundings.fold(0.0, f64::max);
         // Both bodies of a pair may be carried.
-        self.share() * fastest + 2.0 * rounding
-    }
-
-    /// What rounding may move a body that a link carries, at the middle and at any other time together; no point of the body is farther
-    /// than `radius` from the link's origin.
-    fn rounding_of_link(&mut self, scene: &Scene, link: usize, radius: f64) -> f64 {
-        let rounding = self.rates.rounding_of_link(link, scene.poses());
-        let LinearMotion { q, cobject, .. } = self.way.line;
-        let of_coordinates =
-            cobject
-                .space()
-                .motion_bound_of_radius(link, radius, q, &self.rounding);
-        rounding.of_places(radius, self.share()) + of_coordinates
-    }
-
-    /// Bounds how far a link's own body goes in the world from where it is at the middle; 0 where it has none.
-    fn shift_of_link(&mut self, scene: &'a Scene, link: usize) -> f64 {
-        self.shifts.resize(scene.poses().len(), None);
-        if let Some(shift) = self.shifts[link] {
-            return shift;
-        }
-        let shift = scene.link(link).map_or(0.0, |placement| {
-            let body = carried(scene, link, placement);
-            self.shift_of_body(&body).unwrap_or_else(|| {
-                let LinearMotion { q, v, cobject, .. } = self.way.line;
-                let moved = self.share() * cobject.space().motion_bound(link, q, v);
-                moved + self.rounding_of_link(scene, link, body.body.radius_from_origin())
-            })
-        });
-        self.shifts[link] = Some(shift);
-        shift
-    }
-
-    /// The same; `None` where a custom joint moves the body, or bounds overflow.
-    fn shift_of_body(&mut self, body: &Carried<'a, usize>) -> Option<f64> {
-        let rates = self.rates.of_body(body)?;
-        let radius = body.body.radius();
-        let rounding = rates.rounding.of_places(radius, self.share());
-        let by_speed = self.share() * (rates.turn[0] * radius + rates.origin[0]);
-        let shift = match &mut self.middle {
-            None => by_speed,
-            Some(middle) => by_speed.min(middle.shift(body, &rates, Span::Around(0.5))),
-        };
-        Some(shift + rounding).filter(|shift| !shift.is_nan())
-    }
-
-    /// Bounds the change of a pair's distance from the middle to any other time.
-    fn shift(&mut self, scene: &'a Scene, target: &Target) -> f64 {
-        let (r_link, s_link) = target.links();
-        let (_, r_object, _) = target.ids();
-        if s_link.is_some() || r_object != 0 {
-            let links = [Some(r_link), s_link];
-            let roundings = links
-                .into_iter()
-                .zip(target.sides)
-                .filter_map(|(link, placed)| {
-                    let link = link?;
-                    Some(self.rounding_of_link(scene, link, extent(scene, link, placed)))
-                });
-            return roundings.sum::<f64>() + self.share() * self.way.line.rate(scene, target);
-        }
-        self.shift_of_link(scene, r_link)
+        self.links.share() * fastest + 2.0 * rounding
     }
 }
 

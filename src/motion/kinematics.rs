@@ -61,6 +61,18 @@ pub(super) struct CenterMotion {
     pub acceleration: Vec3,
 }
 
+impl CenterMotion {
+    /// Of two centres that one sees: how the first moves as something sees it that goes with the second and does not turn.
+    #[inline]
+    pub fn seen_from(&self, other: &Self) -> Self {
+        Self {
+            apart: self.apart - other.apart,
+            velocity: self.velocity - other.velocity,
+            acceleration: self.acceleration - other.acceleration,
+        }
+    }
+}
+
 impl<'a> Kinematics<'a> {
     /// Of velocities that are known; `memory` is used again.
     pub fn new(
@@ -148,16 +160,12 @@ impl<'a> Kinematics<'a> {
         a.center_seen_from(b)
     }
 
-    /// How A's centre moves as something sees it that goes with B's centre and does not turn.
-    pub fn center_from_center(&mut self, a: &Carried<usize>, b: &Carried<usize>) -> CenterMotion {
-        self.place(a.number, a.link, a);
-        self.place(b.number, b.link, b);
-        let [a, b] = [a, b].map(|body| &self.bodies[body.number].1);
-        CenterMotion {
-            apart: a.center - b.center,
-            velocity: a.velocity - b.velocity,
-            acceleration: a.acceleration - b.acceleration,
-        }
+    /// How a body's centre moves as the origin of the world sees it, where the body's motion is known.
+    pub fn center_in_world(&mut self, body: &Carried<usize>) -> CenterMotion {
+        self.place(body.number, body.link, body);
+        self.bodies[body.number]
+            .1
+            .center_seen_at_rest(&Vec3::zeros())
     }
 
     /// Bounds how far a body's points go in the world over an interval, of whose derivatives these bounds are known.

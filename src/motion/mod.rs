@@ -1,5 +1,6 @@
 //! Motions: proofs that motions and paths are free, their clearance, and the sliding step (Appendix A).
 
+mod ball_on_way;
 mod balls;
 mod box_piece;
 mod carried;
@@ -17,6 +18,7 @@ mod hulls_tried;
 mod interval_proof;
 mod kinematics;
 mod linear_motion;
+mod links_on_way;
 mod look;
 mod look_at_boxes;
 #[allow(clippy::module_inception)]

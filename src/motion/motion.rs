@@ -6,9 +6,11 @@ use super::gathering::{Gathering, Keeps};
 use super::interval_proof::{Confirm, Proof, ProofLimits, prove};
 use super::kinematics::Kinematics;
 use super::linear_motion::LinearMotion;
+use super::links_on_way::LinksOnWay;
 use super::motion_answer::{Moments, MotionAnswer, MotionOutcome};
 use super::moving_pair::MovingPair;
 use super::moving_set::MovingSet;
+use super::pair_rates::PairRates;
 use super::proof_memory::ProofMemory;
 use super::set_tree::SetTree;
 use super::start_contacts::StartContacts;
@@ -233,19 +235,26 @@ impl QueryContext {
             let states = std::mem::take(&mut memory.kinematics);
             let mut kinematics = Kinematics::new(motions, Some(way), states);
             kinematics.start(0.5)?;
-            let middle = Some(&mut kinematics);
-            let mut gathering = Gathering::new(way, motions, threshold, tree, Keeps::Out, middle);
+            let rates = PairRates::in_memory(motions, std::mem::take(&mut memory.rates));
+            let links = LinksOnWay::new(way, scene, rates, Some(&mut kinematics));
+            let mut gathering = Gathering::new(way, scene, links, threshold, tree, Keeps::Out);
             gathering.pairs = emptied(std::mem::take(&mut memory.pairs));
             gathering.start = start;
             for leaf in &tree.leaves {
-                gathering.add(leaf, scene, context)?;
+                gathering.add(leaf, context)?;
             }
             let starts_inside = gathering.needs_start && confirm(context, 0.0)?;
             let crowds = match starts_inside {
                 true => Vec::new(),
-                false => gathering.crowds(scene, &mut memory.crowds),
+                false => gathering.crowds(&mut memory.crowds),
             };
-            let Gathering { leaves, pairs, .. } = gathering;
+            let Gathering {
+                leaves,
+                pairs,
+                links,
+                ..
+            } = gathering;
+            memory.rates = links.rates.into_memory();
             let set = MovingSet {
                 way: Some(way),
                 tree,

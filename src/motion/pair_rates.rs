@@ -2,27 +2,64 @@
 
 use super::carried::Carried;
 use crate::pose::Pose;
-use crate::robot::{ChainRates, ChainRounding, LinkMotions, MotionRates, RatesFrom};
+use crate::robot::{
+    ChainRates, ChainRounding, LinkMotions, LinkSpeed, MotionRates, RatesFrom, RatesMemory,
+};
 
 /// How fast bodies move as others see them, found for one pair after the other. It is quickest where pairs follow each other that have
 /// the same A and Bs that rest, or Bs of the same link.
 pub(super) struct PairRates<'a> {
     motions: &'a LinkMotions,
+    /// Of all links.
+    speeds: Vec<LinkSpeed>,
     in_world: RatesFrom<'a>,
     /// As the link sees it that carried B last.
     on_link: RatesFrom<'a>,
-    /// As the world sees them, by the bodies' numbers.
-    of_bodies: Vec<Option<MotionRates>>,
+    /// The body asked for last, by its number, as the world sees it.
+    last_body: Option<(usize, MotionRates)>,
+}
+
+/// Memory of [`PairRates`].
+#[derive(Default)]
+pub(super) struct PairRatesMemory {
+    speeds: Vec<LinkSpeed>,
+    in_world: RatesMemory,
+    on_link: RatesMemory,
 }
 
 impl<'a> PairRates<'a> {
     pub fn new(motions: &'a LinkMotions) -> Self {
+        Self::in_memory(motions, PairRatesMemory::default())
+    }
+
+    /// The same, in memory that is used again.
+    pub fn in_memory(motions: &'a LinkMotions, memory: PairRatesMemory) -> Self {
+        let PairRatesMemory {
+            mut speeds,
+            in_world,
+            on_link,
+        } = memory;
+        motions.speeds(&mut speeds);
         Self {
             motions,
-            in_world: RatesFrom::new(motions, None),
-            on_link: RatesFrom::new(motions, None),
-            of_bodies: vec![None; motions.len()],
+            speeds,
+            in_world: RatesFrom::in_memory(motions, None, in_world),
+            on_link: RatesFrom::in_memory(motions, None, on_link),
+            last_body: None,
         }
+    }
+
+    pub fn into_memory(self) -> PairRatesMemory {
+        PairRatesMemory {
+            speeds: self.speeds,
+            in_world: self.in_world.into_memory(),
+            on_link: self.on_link.into_memory(),
+        }
+    }
+
+    /// How fast a link moves in the world.
+    pub fn speed(&self, link: usize) -> &LinkSpeed {
+        &self.speeds[link]
     }
 
     /// The derivatives of A's centre as B sees it; `None` where a custom joint moves between them.
@@ -39,8 +76,7 @@ impl<'a> PairRates<'a> {
                 }
                 let mut rates = at_center(self.on_link.of(a.link)?, a);
                 for link in [from, a.link] {
-                    let in_world = self.in_world.of_known_joints(link).rates;
-                    rates.rounding.take_in(&in_world.rounding);
+                    rates.rounding.take_in(&self.speeds[link].rounding);
                 }
                 rates
             }
@@ -52,13 +88,13 @@ impl<'a> PairRates<'a> {
 
     /// What the rounding of both bodies' places comes from, but for the custom joints that move.
     pub fn rounding_of_known_joints(
-        &mut self,
+        &self,
         a: &Carried<usize>,
         b: &Carried<Option<usize>>,
     ) -> ChainRounding {
         let mut rounding = ChainRounding::default();
         for link in std::iter::once(a.link).chain(b.link) {
-            rounding.take_in(&self.in_world.of_known_joints(link).rates.rounding);
+            rounding.take_in(&self.speeds[link].rounding);
         }
         for pose in [a.pose, b.pose].into_iter().flatten() {
             rounding.size += pose.translation.norm();
@@ -67,8 +103,8 @@ impl<'a> PairRates<'a> {
     }
 
     /// What the rounding of a link's place comes from, given the poses of all links.
-    pub fn rounding_of_link(&mut self, link: usize, poses: &[Pose]) -> ChainRounding {
-        let mut rounding = self.in_world.of_known_joints(link).rates.rounding;
+    pub fn rounding_of_link(&self, link: usize, poses: &[Pose]) -> ChainRounding {
+        let mut rounding = self.speeds[link].rounding;
         rounding.size += self
             .motions
             .lengths_of_unknown_joints(link, |link| &poses[link]);
@@ -77,14 +113,14 @@ impl<'a> PairRates<'a> {
 
     /// The derivatives of a body's centre in the world; `None` where a custom joint moves it.
     pub fn of_body(&mut self, body: &Carried<usize>) -> Option<MotionRates> {
-        if self.of_bodies.len() <= body.number {
-            self.of_bodies.resize(body.number + 1, None);
+        if let Some((number, rates)) = self.last_body
+            && number == body.number
+        {
+            return Some(rates);
         }
-        let known = &mut self.of_bodies[body.number];
-        if known.is_none() {
-            *known = Some(at_center(self.in_world.of(body.link)?, body));
-        }
-        *known
+        let rates = at_center(self.in_world.of(body.link)?, body);
+        self.last_body = Some((body.number, rates));
+        Some(rates)
     }
 }
 

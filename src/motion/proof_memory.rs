@@ -4,6 +4,7 @@ use super::crowd::CrowdMemory;
 use super::interval_proof::SearchMemory;
 use super::kinematics::KinematicsMemory;
 use super::moving_pair::MovingPair;
+use super::pair_rates::PairRatesMemory;
 
 /// What a query context keeps from one proof to the next.
 #[derive(Default)]
@@ -11,5 +12,6 @@ pub(super) struct ProofMemory {
     pub pairs: Vec<MovingPair<'static>>,
     pub crowds: CrowdMemory,
     pub kinematics: KinematicsMemory,
+    pub rates: PairRatesMemory,
     pub search: SearchMemory,
 }

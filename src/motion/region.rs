@@ -3,7 +3,9 @@
 
 use super::crowd::CrowdMemory;
 use super::gathering::{Gathering, Keeps};
+use super::links_on_way::LinksOnWay;
 use super::moving_set::MovingSet;
+use super::pair_rates::PairRates;
 use super::region_proof::{BoxProof, BoxWork, Center, Region, RegionProof, prove_region};
 use super::set_tree::SetTree;
 use crate::cobject::{CObject, Class};
@@ -136,11 +138,12 @@ impl QueryContext {
         }
         let motions = &way.link_motions();
         let scene = &way.scene(&center.q)?;
-        let mut gathering = Gathering::new(way, motions, 0.0, tree, keeps, None);
+        let links = LinksOnWay::new(way, scene, PairRates::new(motions), None);
+        let mut gathering = Gathering::new(way, scene, links, 0.0, tree, keeps);
         for leaf in &tree.leaves {
-            gathering.add(leaf, scene, self)?;
+            gathering.add(leaf, self)?;
         }
-        let crowds = gathering.crowds(scene, &mut CrowdMemory::default());
+        let crowds = gathering.crowds(&mut CrowdMemory::default());
         let Gathering { leaves, pairs, .. } = gathering;
         let set = &MovingSet {
             way: Some(way),

@@ -3,8 +3,6 @@
 //! what is apart stay so, to second order. Where a plane that nothing crosses separates the two for the whole motion, it need not follow
 //! them at all.
 
-use std::cell::RefCell;
-
 use super::half_spaces::dot;
 use super::linear_motion::{LinearMotion, STEP_FRACTION};
 use super::pair_rates::PairRates;
@@ -82,7 +80,7 @@ impl QueryContext {
         let places = &Places {
             motion,
             start,
-            rates: RefCell::new(PairRates::new(&motions)),
+            rates: &PairRates::new(&motions),
             of_coordinates: &way.rounding(),
         };
         let mut found = StartContacts::default();

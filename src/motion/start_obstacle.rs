@@ -1,8 +1,6 @@
 //! What a robot must keep clear of from the start of a slide: a body pair, or a pure set. How near it is, where a plane separates the two,
 //! and what rounding may do to its place.
 
-use std::cell::RefCell;
-
 use super::linear_motion::{LinearMotion, STEP_FRACTION, extent};
 use super::pair_rates::PairRates;
 use crate::cobject::{PureSet, PureShape};
@@ -51,7 +49,7 @@ pub(super) trait Obstacle {
 pub(super) struct Places<'a> {
     pub motion: &'a LinearMotion<'a>,
     pub start: &'a Scene<'a>,
-    pub rates: RefCell<PairRates<'a>>,
+    pub rates: &'a PairRates<'a>,
     /// Bounds of how far roundings put coordinates off the way (`Way::rounding`).
     pub of_coordinates: &'a [f64],
 }
@@ -60,8 +58,7 @@ impl Places<'_> {
     /// How far rounding may move what a link carries within a radius of its origin.
     fn rounding(&self, link: usize, radius: f64) -> f64 {
         let LinearMotion { cobject, q, .. } = *self.motion;
-        let mut rates = self.rates.borrow_mut();
-        let rounding = rates.rounding_of_link(link, self.start.poses());
+        let rounding = self.rates.rounding_of_link(link, self.start.poses());
         let v = self.of_coordinates;
         let of_coordinates = cobject.space().motion_bound_of_radius(link, radius, q, v);
         rounding.of_places(radius, 1.0) + of_coordinates

@@ -58,16 +58,6 @@ pub(super) struct CourseBounds {
     pub degree: u32,
 }
 
-impl CourseBounds {
-    /// Of what is 1 at all times.
-    pub const ONE: Self = Self {
-        farthest: 1.0,
-        summed: 1.0,
-        derivatives: [0.0; 3],
-        degree: 0,
-    };
-}
-
 impl Course {
     /// From 0 on at a constant rate.
     pub fn from_zero(rate: f64) -> Self {

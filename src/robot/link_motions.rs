@@ -172,6 +172,11 @@ impl LinkMotions {
         &self.elements[first..end]
     }
 
+    /// What courses are told by.
+    pub(super) fn controls(&self) -> &[f64] {
+        &self.controls
+    }
+
     pub(super) fn push_element(&self, rates: &mut ChainRates, element: &Element) {
         match element {
             Element::Fixed(pose) => rates.push_fixed(pose),

@@ -10,6 +10,7 @@ mod frozen;
 mod jacobian;
 mod joint;
 mod link_motions;
+mod link_speeds;
 mod link_states;
 mod link_twists;
 mod motion_bound;
@@ -31,12 +32,13 @@ pub use custom_joint::{CustomJoint, MAX_COORDINATES, Speeds, Twist};
 pub use jacobian::{Column, RobotState};
 pub use joint::{Joint, JointKind};
 pub use link_motions::{CoordinateCourses, LinkMotions};
+pub use link_speeds::LinkSpeed;
 pub use link_states::LinkStates;
 pub use link_twists::{LinkTwists, RelativeTwist, RelativeTwists};
 pub use motion_bound::Velocity;
 pub use motion_rates::{ChainRates, ChainRounding, MotionRates};
 pub use motion_state::MotionState;
-pub use rates_from::RatesFrom;
+pub use rates_from::{RatesFrom, RatesMemory};
 pub use robot::{Link, Robot, check_configuration};
 pub use semantics::{
     EndEffector, JointGroup, NamedState, PairRules, SemanticName, Semantics, VirtualJoint,

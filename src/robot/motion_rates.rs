@@ -44,7 +44,28 @@ impl ChainRounding {
         self.degree = self.degree.max(other.degree);
     }
 
-    /// Takes in an element that moves by a course within bounds.
+    /// Takes in a pose that stays, whose origin is so far off.
+    #[inline(always)]
+    pub(super) fn take_in_arm(&mut self, length: f64) {
+        self.elements += 1;
+        self.size += length;
+    }
+
+    /// Takes in a turn by an angle within bounds.
+    #[inline(always)]
+    pub(super) fn take_in_turn(&mut self, angle: &CourseBounds) {
+        self.take_in_course(angle);
+        self.angle = self.angle.max(angle.summed);
+        self.turning += angle.derivatives[0];
+    }
+
+    /// Takes in a shift along an axis of such a length, about 1, times a factor within bounds.
+    #[inline(always)]
+    pub(super) fn take_in_shift(&mut self, axis: f64, factor: &CourseBounds) {
+        self.take_in_course(factor);
+        self.size += axis * factor.summed;
+    }
+
     fn take_in_course(&mut self, bounds: &CourseBounds) {
         self.elements += 1;
         self.degree = self.degree.max(bounds.degree);
@@ -81,25 +102,89 @@ pub struct ChainRates {
     pub rates: MotionRates,
     /// The sums over all turns of the bounds of their angles' derivatives.
     angles: [f64; 3],
-    /// The axis of the last turn, in the last frame, with [`MotionRates::turn`] of the turns before it.
-    last: Option<(Vec3, [f64; 3])>,
+    last: Option<LastTurn>,
+}
+
+/// The last turn of a chain.
+#[derive(Clone, Copy, Debug)]
+struct LastTurn {
+    /// Its axis, in the last frame.
+    axis: Vec3,
+    /// [`MotionRates::turn`] of the turns before it.
+    before: [f64; 3],
+}
+
+/// A vector in the last frame of a chain.
+///
+/// The last turn moves only what of it is across its axis; the turns before move all of it. By the product rule, with T_k for the turns
+/// before, U_k for the last one and V_k for all, V_k is the sum over i of (k over i) T_i U_(k-i): so the k-th derivative of an arm a, across
+/// the axis c, is at most T_k a + (V_k - T_k) c.
+struct Arm {
+    length: f64,
+    across: f64,
+    /// [`MotionRates::turn`] of the turns that move all of it.
+    before: [f64; 3],
+}
+
+impl Arm {
+    #[inline(always)]
+    fn new(arm: &Vec3, last: Option<&LastTurn>) -> Self {
+        let length = arm.norm();
+        match last {
+            Some(LastTurn { axis, before }) => Self {
+                length,
+                across: axis.cross(arm).norm().min(length),
+                before: *before,
+            },
+            None => Self {
+                length,
+                across: length,
+                before: [0.0; 3],
+            },
+        }
+    }
+
+    /// A derivative of the arm, given what bounds that of a unit vector behind the turns before the last, and behind all.
+    #[inline(always)]
+    fn derivative(&self, before: f64, all: f64) -> f64 {
+        let last = if before < f64::INFINITY {
+            all - before
+        } else {
+            all
+        };
+        // Of what is not there no bound counts, not even an infinite one.
+        let times = |bound: f64, part: f64| if part > 0.0 { bound * part } else { 0.0 };
+        times(before, self.length) + times(last, self.across)
+    }
+}
+
+impl MotionRates {
+    /// Moves the origin along an arm of the last frame; returns its length.
+    #[inline(always)]
+    fn carry(&mut self, arm: &Vec3, last: Option<&LastTurn>) -> f64 {
+        let arm = Arm::new(arm, last);
+        for k in 0..3 {
+            self.origin[k] += arm.derivative(arm.before[k], self.turn[k]);
+        }
+        arm.length
+    }
 }
 
 impl ChainRates {
     /// Goes on to a frame that is fixed to the last one.
     pub fn push_fixed(&mut self, pose: &Pose) {
-        self.rates.rounding.elements += 1;
-        self.carry(&pose.translation, &CourseBounds::ONE);
-        if let Some((axis, _)) = &mut self.last {
-            *axis = turned_back(&pose.rotation, axis);
+        let length = self.rates.carry(&pose.translation, self.last.as_ref());
+        self.rates.rounding.take_in_arm(length);
+        if let Some(last) = &mut self.last {
+            last.axis = turned_back(&pose.rotation, &last.axis);
         }
     }
 
     /// The bounds at a point that is fixed to the last frame, instead of its origin.
     pub fn at(&self, point: &Vec3) -> MotionRates {
-        let mut chain = *self;
-        chain.carry(point, &CourseBounds::ONE);
-        chain.rates
+        let mut rates = self.rates;
+        rates.rounding.size += rates.carry(point, self.last.as_ref());
+        rates
     }
 
     /// Goes on behind a turn about a unit axis.
@@ -108,22 +193,21 @@ impl ChainRates {
             // Where it always points is of no use: it may be turned away from the axis before it.
             self.last = None;
         } else {
-            self.last = Some((*axis, self.rates.turn));
+            self.last = Some(LastTurn {
+                axis: *axis,
+                before: self.rates.turn,
+            });
         }
         for (sum, bound) in self.angles.iter_mut().zip(bounds.derivatives) {
             *sum += bound;
         }
         let [s1, s2, s3] = self.angles;
         self.rates.turn = [s1, s1 * s1 + s2, s1 * s1 * s1 + 3.0 * s1 * s2 + s3];
-        let rounding = &mut self.rates.rounding;
-        rounding.take_in_course(bounds);
-        rounding.angle = rounding.angle.max(bounds.summed);
-        rounding.turning = s1;
+        self.rates.rounding.take_in_turn(bounds);
     }
 
     /// Goes on behind a shift along a unit axis.
     pub(super) fn push_shift(&mut self, axis: &Vec3, bounds: &CourseBounds) {
-        self.rates.rounding.take_in_course(bounds);
         self.carry(axis, bounds);
     }
 
@@ -133,38 +217,28 @@ impl ChainRates {
         self.last = None;
         // Where no axis is known the arm counts by its length alone, which is 1.
         self.carry(axis, way);
-        self.rates.rounding.elements += 1;
         self.push_turn(axis, angle);
     }
 
-    /// Moves the origin along `arm`, times a factor within bounds.
-    #[inline(always)]
-    fn carry(&mut self, arm: &Vec3, factor: &CourseBounds) {
-        let whole = arm.norm();
-        if whole == 0.0 {
-            return;
-        }
-        let length = factor.farthest;
-        self.rates.rounding.size += whole * factor.summed;
-        let parts = match self.last {
-            // Along the last turn's axis only the turns before it count.
-            Some((axis, before)) => [
-                (axis.dot(arm).abs().min(whole), before),
-                (axis.cross(arm).norm().min(whole), self.rates.turn),
-            ],
-            None => [(whole, self.rates.turn), (0.0, [0.0; 3])],
-        };
-        let [l1, l2, l3] = factor.derivatives;
-        // Of what is not there no bound counts, not even an infinite one.
-        for (part, [t1, t2, t3]) in parts.into_iter().filter(|(part, _)| *part > 0.0) {
-            let derivatives = [
-                t1 * length + l1,
-                t2 * length + 2.0 * t1 * l1 + l2,
-                t3 * length + 3.0 * t2 * l1 + 3.0 * t1 * l2 + l3,
-            ];
-            for (origin, derivative) in self.rates.origin.iter_mut().zip(derivatives) {
-                *origin += part * derivative;
-            }
+    /// Moves the origin along `axis`, times a factor within bounds.
+    fn carry(&mut self, axis: &Vec3, factor: &CourseBounds) {
+        let arm = Arm::new(axis, self.last.as_ref());
+        let rates = &mut self.rates;
+        rates.rounding.take_in_shift(arm.length, factor);
+        let [before, all] = [arm.before, rates.turn].map(|turn| behind(turn, factor));
+        for k in 0..3 {
+            rates.origin[k] += arm.derivative(before[k], all[k]);
         }
     }
+}
+
+/// Bounds of the derivatives of a unit vector behind turns, times a factor within bounds.
+fn behind([t1, t2, t3]: [f64; 3], factor: &CourseBounds) -> [f64; 3] {
+    let length = factor.farthest;
+    let [l1, l2, l3] = factor.derivatives;
+    [
+        t1 * length + l1,
+        t2 * length + 2.0 * t1 * l1 + l2,
+        t3 * length + 3.0 * t2 * l1 + 3.0 * t1 * l2 + l3,
+    ]
 }

@@ -16,7 +16,16 @@ pub struct RatesFrom<'a> {
     behind: Option<usize>,
     /// The world, once all carriers have been looked at.
     world: Seen,
-    links: Vec<Option<Seen>>,
+    links: Vec<Seen>,
+    /// Which of the links have been looked at.
+    is_seen: Vec<bool>,
+}
+
+/// Memory of [`RatesFrom`].
+#[derive(Debug, Default)]
+pub struct RatesMemory {
+    links: Vec<Seen>,
+    is_seen: Vec<bool>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -29,12 +38,25 @@ struct Seen {
 impl<'a> RatesFrom<'a> {
     /// As a link sees them, or for `None` the world.
     pub fn new(motions: &'a LinkMotions, from: Option<usize>) -> Self {
+        Self::in_memory(motions, from, RatesMemory::default())
+    }
+
+    /// The same, in memory that is used again.
+    pub fn in_memory(motions: &'a LinkMotions, from: Option<usize>, memory: RatesMemory) -> Self {
+        let RatesMemory {
+            mut links,
+            mut is_seen,
+        } = memory;
+        links.resize(motions.len(), Seen::default());
+        is_seen.clear();
+        is_seen.resize(motions.len(), false);
         let mut rates = Self {
             motions,
             from: None,
             behind: None,
             world: Seen::default(),
-            links: vec![None; motions.len()],
+            links,
+            is_seen,
         };
         if from.is_some() {
             rates.look_from(from);
@@ -42,13 +64,21 @@ impl<'a> RatesFrom<'a> {
         rates
     }
 
+    /// The memory, for others.
+    pub fn into_memory(self) -> RatesMemory {
+        RatesMemory {
+            links: self.links,
+            is_seen: self.is_seen,
+        }
+    }
+
     /// Changes what sees them.
     pub fn look_from(&mut self, from: Option<usize>) {
         self.from = from;
-        self.links.fill(None);
+        self.is_seen.fill(false);
         self.behind = from;
         match from {
-            Some(link) => self.links[link] = Some(Seen::default()),
+            Some(link) => self.note(link, Seen::default()),
             None => self.world = Seen::default(),
         }
     }
@@ -58,7 +88,7 @@ impl<'a> RatesFrom<'a> {
     fn look_behind(&mut self, to: Option<usize>) {
         let motions = self.motions;
         while let Some(link) = self.behind.filter(|link| to.is_none_or(|to| to < *link)) {
-            let mut seen = self.links[link].unwrap_or_default();
+            let mut seen = self.links[link];
             seen.is_unknown |= !motions.is_joint_known(link);
             for element in motions.elements_of(link).iter().rev() {
                 match element {
@@ -68,7 +98,7 @@ impl<'a> RatesFrom<'a> {
             }
             self.behind = motions.parent(link);
             match self.behind {
-                Some(carrier) => self.links[carrier] = Some(seen),
+                Some(carrier) => self.note(carrier, seen),
                 None => self.world = seen,
             }
         }
@@ -90,11 +120,16 @@ impl<'a> RatesFrom<'a> {
         &self.seen(link).chain
     }
 
+    fn note(&mut self, link: usize, seen: Seen) {
+        self.links[link] = seen;
+        self.is_seen[link] = true;
+    }
+
     fn seen(&mut self, link: usize) -> &Seen {
-        if self.links[link].is_none() {
+        if !self.is_seen[link] {
             self.look_at(link);
         }
-        self.links[link].get_or_insert_default()
+        &self.links[link]
     }
 
     /// Goes to a link from the nearest carrier that is known.
@@ -106,8 +141,8 @@ impl<'a> RatesFrom<'a> {
             let Some(index) = next else {
                 break self.world;
             };
-            if let Some(known) = self.links[index] {
-                break known;
+            if self.is_seen[index] {
+                break self.links[index];
             }
             path.push(index);
             next = self.motions.parent(index);
@@ -117,7 +152,7 @@ impl<'a> RatesFrom<'a> {
             for element in self.motions.elements_of(index) {
                 self.motions.push_element(&mut seen.chain, element);
             }
-            self.links[index] = Some(seen);
+            self.note(index, seen);
         }
     }
 }

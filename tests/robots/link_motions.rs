@@ -246,6 +246,43 @@ fn no_derivative_is_above_its_bound() {
     );
 }
 
+/// The speeds that are told for all links at once, by differences of the robot's poses; what their places are rounded by is counted along
+/// the same chain as for one link alone.
+#[test]
+fn no_link_is_faster_than_its_speed() {
+    let mut random = Random::new(86);
+    let (mut used, mut speeds) = (0.0f64, Vec::new());
+    for _ in 0..3000 {
+        let case = case(&mut random);
+        case.motions.speeds(&mut speeds);
+        assert_eq!(speeds.len(), case.motions.len());
+        let link = random.below(speeds.len());
+        let point = random.point(0.5);
+        let bound = speeds[link].at_radius(point.norm());
+        let rates = RatesFrom::new(&case.motions, None).of(link).unwrap().rates;
+        let closer = rates.origin[0] + rates.turn[0] * point.norm();
+        assert!(bound >= closer * (1.0 - 1e-12), "{bound} below {closer}");
+        for reach in [0.0, 0.5, 1.0] {
+            let [quick, exact] =
+                [&speeds[link].rounding, &rates.rounding].map(|of| of.of_places(1.0, reach));
+            assert_eq!(quick, exact);
+        }
+        let place = |t: f64| (case.poses)(t)[link].transform_point(&point);
+        for i in 1..10 {
+            let (t, h) = (f64::from(i) / 10.0, 1e-5);
+            let speed = (place(t + h) - place(t - h)).norm() / (2.0 * h);
+            assert!(
+                speed <= bound + 1e-8 * (1.0 + rates.origin[2] + rates.turn[2]),
+                "{speed} of {bound}"
+            );
+            if bound > 0.1 {
+                used = used.max(speed / bound);
+            }
+        }
+    }
+    assert!(used > 0.9, "speeds of {used} of the bounds are of no use");
+}
+
 /// The links between two, the first of them carried by no other: those that carry one and not both.
 fn between(parents: &[Option<usize>], a: usize, b: Option<usize>) -> Vec<usize> {
     let carriers = |link: Option<usize>| -> Vec<usize> {

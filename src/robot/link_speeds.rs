@@ -1,0 +1,71 @@
+//! Bounds of how fast links move in the world, and what rounding does to their places: all of them in one pass, by the lengths along
+//! their chains alone. [`RatesFrom`](super::RatesFrom) says more, and takes longer.
+
+use super::link_motions::{Element, LinkMotions};
+use super::motion_rates::ChainRounding;
+
+/// Bounds of how fast a link moves in the world on a motion.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LinkSpeed {
+    /// Of its turn, in radians per unit of time.
+    pub turn: f64,
+    /// Of its origin.
+    pub origin: f64,
+    /// What the rounding of its places comes from, but for custom joints that move.
+    pub rounding: ChainRounding,
+    /// Whether a custom joint moves it, of which these say nothing.
+    pub is_unknown: bool,
+}
+
+impl LinkSpeed {
+    /// The speed of no point within `radius` of the link's origin is larger.
+    pub fn at_radius(&self, radius: f64) -> f64 {
+        self.origin + self.turn * radius
+    }
+
+    /// Goes on through one element: what comes before turns all of an arm, whichever way that points.
+    fn push(&mut self, element: &Element, controls: &[f64]) {
+        match element {
+            Element::Fixed(pose) => {
+                let length = pose.translation.norm();
+                self.rounding.take_in_arm(length);
+                self.origin += self.turn * length;
+            }
+            Element::Turn { angle, .. } => {
+                let bounds = angle.bounds(controls);
+                self.rounding.take_in_turn(&bounds);
+                self.turn += bounds.derivatives[0];
+            }
+            Element::Shift { axis, length } => {
+                let (bounds, unit) = (length.bounds(controls), axis.norm());
+                self.rounding.take_in_shift(unit, &bounds);
+                self.origin += unit * (self.turn * bounds.farthest + bounds.derivatives[0]);
+            }
+            Element::CircularArc(arc) => {
+                let (way, unit) = (arc.way_bounds(), arc.axis.norm());
+                self.rounding.take_in_shift(unit, &way);
+                self.origin += unit * (self.turn * way.farthest + way.derivatives[0]);
+                let bounds = arc.angle_bounds();
+                self.rounding.take_in_turn(&bounds);
+                self.turn += bounds.derivatives[0];
+            }
+        }
+    }
+}
+
+impl LinkMotions {
+    /// The speeds of all links.
+    pub fn speeds(&self, speeds: &mut Vec<LinkSpeed>) {
+        speeds.clear();
+        for link in 0..self.len() {
+            let mut speed = self
+                .parent(link)
+                .map_or_else(LinkSpeed::default, |parent| speeds[parent]);
+            speed.is_unknown |= !self.is_joint_known(link);
+            for element in self.elements_of(link) {
+                speed.push(element, self.controls());
+            }
+            speeds.push(speed);
+        }
+    }
+}
