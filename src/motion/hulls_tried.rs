@@ -13,7 +13,7 @@ pub(super) struct HullsTried {
 }
 
 /// After so many groups of boxes the hulls of a pair are tried: pairs that are far apart take fewer.
-const GROUPS_BEFORE: u32 = 16;
+const GROUPS_BEFORE: u32 = 8;
 
 impl HullsTried {
     /// Counts work on the pair, in groups of boxes. Whether it is worth trying the hulls.
