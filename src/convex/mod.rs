@@ -16,6 +16,7 @@ mod cuboids_within;
 mod curved_contacts;
 mod distance;
 mod extreme_vertex;
+mod flat_contact;
 mod gauss_arcs;
 mod level_features;
 mod likely_parts;
@@ -46,6 +47,7 @@ pub use distance::{
     PrimitiveDistance, beyond_radii, closed_distance, measure, meeting_or_beyond,
     middle_of_overlap, parts,
 };
+pub use flat_contact::is_flat_contact;
 pub use outline::{MAX_CORNERS, Outline, moved};
 pub use penetration::penetration;
 pub use placed::{PlacedBuffer, PlacedPrimitive, Precision};

@@ -5,7 +5,7 @@ use super::pair_distance::PrimitiveScratch;
 use super::pairing::{EMPTY, Pairing};
 use crate::convex::{
     Closest, Contact, Penetration, PlacedBuffer, PrimitiveDistance, contacts, first_contact,
-    measure, penetration, polygon_closest,
+    is_flat_contact, measure, penetration, polygon_closest,
 };
 use crate::error::Result;
 use crate::gjk::DistanceLimits;
@@ -77,6 +77,14 @@ impl Pairing<'_> {
         let [a, b] = self.place(primitives, [None; 2], &mut scratch.buffer);
         let found = contacts(&a, &b, measured, &self.precision);
         found.into_iter().map(|c| self.in_world(c)).collect()
+    }
+
+    /// Whether more than a point of each of two primitives, one of them smooth, is nearest along a unit normal of A's centred frame, from B to
+    /// A: of a cap on a face one contact is listed, which stands for all.
+    pub fn is_flat_contact(&self, primitives: [u32; 2], normal: &Vec3) -> bool {
+        let mut buffer = PlacedBuffer::default();
+        let [a, b] = self.place(primitives, [None; 2], &mut buffer);
+        is_flat_contact(&a, &b, normal)
     }
 
     /// The first of these contacts: the one at the closest points, if the primitives are apart.

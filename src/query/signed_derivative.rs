@@ -65,6 +65,12 @@ impl<'t> SeenPair<'t> {
         Ok(row)
     }
 
+    /// Whether a contact stands for others, which have other derivatives.
+    fn is_flat(&self, contact: &Touching) -> bool {
+        self.pairing
+            .is_flat_contact(contact.primitives, &contact.normal)
+    }
+
     fn in_world(&self, direction: &Vec3, contact: &Touching) -> (Vec3, [Vec3; 2]) {
         let frame = &self.pairing.frame;
         let points = contact.points.map(|p| frame.transform_point(&p));
@@ -107,7 +113,8 @@ impl Derivative {
         let row = seen.row(&first.normal, first)?;
         let mut is_one = is_all;
         for contact in near {
-            is_one &= are_same(&row, &seen.row(&contact.normal, contact)?);
+            is_one &=
+                are_same(&row, &seen.row(&contact.normal, contact)?) && !seen.is_flat(contact);
         }
         let (normal, points) = seen.in_world(&first.normal, first);
         Ok(Self {
@@ -137,6 +144,7 @@ impl Derivative {
         for (weight, contacts) in &depth.out.terms {
             let normal = contacts[0].normal * *weight;
             let own = seen.row(&normal, &contacts[0])?;
+            is_one &= !contacts.iter().any(|contact| seen.is_flat(contact));
             for contact in &contacts[1..] {
                 is_one &= are_same(&own, &seen.row(&normal, contact)?);
             }
@@ -144,6 +152,7 @@ impl Derivative {
         }
         if depth.out.terms.is_empty() {
             sum = seen.row(&direction, first)?;
+            is_one &= !seen.is_flat(first);
         }
         let is_known = depth.is_tight && depth.out.is_explained;
         let (normal, points) = seen.in_world(&direction, first);

@@ -1,11 +1,12 @@
 //! Signed distances and their derivatives: against central differences on both sides of contact, and where none is defined.
 
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use cstk::body::{Body, BodyBuilder};
 use cstk::cobject::CObject;
 use cstk::hierarchy::HierarchyOptions;
-use cstk::pose::{Pose, Vec3};
+use cstk::pose::{Mat3, Pose, Vec3, rotation_about};
 use cstk::query::{DepthOptions, GradientKind, QueryContext, SignedDistanceList};
 
 use helpers::all_cases;
@@ -104,6 +105,92 @@ fn derivatives_are_right_on_both_sides_of_contact() {
     for [apart, meeting] in counts {
         assert!(apart > 0 && meeting > 0, "{counts:?}");
     }
+}
+
+/// Bodies of one shape whose z axis is along x, y or z.
+fn posed_shape(kind: usize, along: usize) -> Arc<Body> {
+    let pose = Pose {
+        rotation: match along {
+            0 => rotation_about(&Vec3::y(), FRAC_PI_2),
+            1 => rotation_about(&Vec3::x(), FRAC_PI_2),
+            _ => Mat3::identity(),
+        },
+        translation: Vec3::zeros(),
+    };
+    built(|builder| {
+        let [low, high] = [-0.3, 0.3].map(|z| pose.transform_point(&(Vec3::z() * z)));
+        match kind {
+            0 => builder.add_cylinder(&pose, 0.2, 0.3, 0),
+            1 => builder.add_cone(&pose, 0.2, 0.6, 0),
+            2 => builder.add_box(&pose, &Vec3::new(0.2, 0.25, 0.3), 0),
+            3 => builder.add_capsule(&low, &high, 0.2, 0),
+            _ => builder.add_ellipsoid(&pose, &Vec3::new(0.2, 0.25, 0.3), 0),
+        }
+        .unwrap();
+    })
+}
+
+/// Shapes that stand and lie on one another, upright, leaning with a ruling on a face, or turned about the vertical: what is called a
+/// derivative has differences that agree on both its sides, and where these do not agree it is one of several. The differences are the oracle.
+#[test]
+fn caps_and_rulings_on_faces_have_no_derivative() {
+    const H: f64 = 1e-6;
+    let slant = 0.2f64.atan2(0.6);
+    let (mut several, mut smooth) = (0, 0);
+    for case in 0..5 * 3 * 5 * 3 * 2 {
+        let [kind, along, other, other_along, is_near] = [
+            case % 5,
+            case / 5 % 3,
+            case / 15 % 5,
+            case / 75 % 3,
+            case / 225,
+        ];
+        if kind > 1 && other > 1 {
+            continue;
+        }
+        let body = posed_shape(kind, along);
+        let wall = posed_shape(other, other_along);
+        let objects = environment(&[(&wall, Pose::identity())]);
+        let cobject = against(&space(vec![free_body(&body)]), &objects.0);
+        let height = [0.5, 0.9][is_near];
+        for turn in [
+            [0.0; 3],
+            [0.3, 0.0, 0.0],
+            [0.0, slant, 0.0],
+            [0.0, 0.0, slant],
+        ] {
+            let q = [0.01, 0.02, height, turn[0], turn[1], turn[2]];
+            let list = signed(&cobject, &q);
+            let [pair] = &list.pairs[..] else {
+                continue;
+            };
+            let differences: Vec<[f64; 2]> = (0..6)
+                .map(|k| {
+                    [-H, H].map(|h| {
+                        let mut q = q;
+                        q[k] += h;
+                        (signed(&cobject, &q).pairs[0].distance - pair.distance) / h
+                    })
+                })
+                .collect();
+            let has_kink = differences.iter().any(|[a, b]| (a - b).abs() > 1e-3);
+            let is_plain = differences.iter().all(|[a, b]| (a - b).abs() < 1e-5);
+            let place = format!("{kind} along {along} over {other} along {other_along} at {q:?}");
+            if has_kink {
+                assert_ne!(
+                    pair.gradient,
+                    GradientKind::Derivative,
+                    "{place}: {differences:?}"
+                );
+                several += 1;
+            } else if is_plain && pair.distance > 0.0 {
+                assert_eq!(pair.gradient, GradientKind::Derivative, "{place}");
+                smooth += 1;
+            }
+        }
+    }
+    println!("with a kink {several}, without {smooth}");
+    assert!(several > 100 && smooth > 100);
 }
 
 #[test]
