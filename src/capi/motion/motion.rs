@@ -101,6 +101,8 @@ pub unsafe extern "C" fn cstk_motion_options_default(
 ///
 /// A solid that the motion starts outside of is not entered without contact. A motion along contact at a distance of 0 is a hit at
 /// its start; one that grazes ends near.
+/// Bodies that keep their places relative to each other are asked at the start alone. Where the motion takes them so far away that
+/// their places are rounded by more than their gap, cstk_classify may call them inside.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_motion(
     query: *mut cstk_query,
