@@ -71,11 +71,11 @@ fn farthest_of_vertices(core: &Core, direction: &Vec3) -> Farthest {
     let slack = EQUALLY_FAR * size;
     let from_first = || vertices().map(|v| v - first).filter(|v| -along(v) <= slack);
     let longest = from_first().max_by(|a, b| a.norm().total_cmp(&b.norm()));
-    let Some(along) = longest.and_then(|v| v.try_normalize(slack)) else {
+    let Some(line) = longest.and_then(|v| v.try_normalize(slack)) else {
         return Farthest::Point;
     };
-    if from_first().all(|v| v.cross(&along).norm() <= slack) {
-        Farthest::Line(along)
+    if from_first().all(|v| v.cross(&line).norm() <= slack) {
+        Farthest::Line(line)
     } else {
         Farthest::Plane
     }

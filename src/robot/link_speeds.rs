@@ -1,8 +1,10 @@
 //! Bounds of how fast links move in the world, and what rounding does to their places: all of them in one pass, by the lengths along
 //! their chains alone. [`RatesFrom`](super::RatesFrom) says more, and takes longer.
 
+use super::course::CourseBounds;
 use super::link_motions::{Element, LinkMotions};
 use super::motion_rates::ChainRounding;
+use crate::pose::Vec3;
 
 /// Bounds of how fast a link moves in the world on a motion.
 #[derive(Clone, Copy, Debug, Default)]
@@ -31,25 +33,24 @@ impl LinkSpeed {
                 self.rounding.take_in_arm(length);
                 self.origin += self.turn * length;
             }
-            Element::Turn { angle, .. } => {
-                let bounds = angle.bounds(controls);
-                self.rounding.take_in_turn(&bounds);
-                self.turn += bounds.derivatives[0];
-            }
-            Element::Shift { axis, length } => {
-                let (bounds, unit) = (length.bounds(controls), axis.norm());
-                self.rounding.take_in_shift(unit, &bounds);
-                self.origin += unit * (self.turn * bounds.farthest + bounds.derivatives[0]);
-            }
+            Element::Turn { angle, .. } => self.turn_by(&angle.bounds(controls)),
+            Element::Shift { axis, length } => self.shift_along(axis, &length.bounds(controls)),
             Element::CircularArc(arc) => {
-                let (way, unit) = (arc.way_bounds(), arc.axis.norm());
-                self.rounding.take_in_shift(unit, &way);
-                self.origin += unit * (self.turn * way.farthest + way.derivatives[0]);
-                let bounds = arc.angle_bounds();
-                self.rounding.take_in_turn(&bounds);
-                self.turn += bounds.derivatives[0];
+                self.shift_along(&arc.axis, &arc.way_bounds());
+                self.turn_by(&arc.angle_bounds());
             }
         }
+    }
+
+    fn turn_by(&mut self, angle: &CourseBounds) {
+        self.rounding.take_in_turn(angle);
+        self.turn += angle.derivatives[0];
+    }
+
+    fn shift_along(&mut self, axis: &Vec3, length: &CourseBounds) {
+        let unit = axis.norm();
+        self.rounding.take_in_shift(unit, length);
+        self.origin += unit * (self.turn * length.farthest + length.derivatives[0]);
     }
 }
 
