@@ -1,5 +1,7 @@
 //! Whether a direction parts two primitives over an interval of time, or over a box of configurations.
 
+use smallvec::SmallVec;
+
 use super::core::Core;
 use super::placed::PlacedPrimitive;
 use crate::gjk::Support;
@@ -71,45 +73,48 @@ fn stays_apart_over_box(
     needed: f64,
 ) -> bool {
     let [with_a, with_b] = sweep.bends;
-    let rests_with_b =
-        least_moved(a, direction, 1.0, sweep.displacements) + least_along(b, &-direction) - with_b;
+    let along = |by: &Displacement| Along {
+        turned: direction.cross(&by.angular),
+        shift: direction.dot(&by.linear),
+    };
+    let moves: Moves = sweep.displacements.iter().map(along).collect();
+    let rests_with_b = least_moved(a, direction, &moves) + least_along(b, &-direction) - with_b;
     rests_with_b > needed
-        || least_along(a, direction) + least_moved(b, direction, -1.0, sweep.displacements) - with_a
-            > needed
+        || least_along(a, direction) + least_moved(b, &-direction, &moves) - with_a > needed
 }
 
-/// The least place along `sign * direction` that any sum of displacements gives a point of a primitive. Of a point x it is
-/// sign n . x - sum |n . v + (n x w) . x|, which is concave in x: the least over a polytope is at a vertex.
-fn least_moved(
-    placed: &PlacedPrimitive,
-    direction: &Vec3,
-    sign: f64,
-    displacements: &[Displacement],
-) -> f64 {
-    let along = |by: &Displacement| (direction.cross(&by.angular), direction.dot(&by.linear));
+/// How far a displacement moves points along a direction: a point x by `shift + turned . x`.
+struct Along {
+    turned: Vec3,
+    shift: f64,
+}
+
+/// Of all displacements.
+type Moves = SmallVec<[Along; 16]>;
+
+/// The least place along a direction that any sum of displacements, each either way, gives a point of a primitive. Of a point x it is
+/// n . x - sum |shift + turned . x|, which is concave in x: the least over a polytope is at a vertex.
+fn least_moved(placed: &PlacedPrimitive, direction: &Vec3, moves: &[Along]) -> f64 {
     let is_listed = placed.shape.smooth().is_none() && placed.vertex_count() <= MAX_LISTED_VERTICES;
     if !is_listed {
-        let moved = displacements.iter().map(|by| {
-            let (turned, shift) = along(by);
-            let least = shift + least_along(placed, &turned);
+        let moved = moves.iter().map(|Along { turned, shift }| {
+            let least = shift + least_along(placed, turned);
             let most = shift - least_along(placed, &-turned);
             most.max(-least)
         });
-        return least_along(placed, &(sign * direction)) - moved.sum::<f64>();
+        return least_along(placed, direction) - moved.sum::<f64>();
     }
     let mut least = f64::INFINITY;
     for index in 0..placed.vertex_count() as u32 {
         let vertex = placed.vertex(index);
-        let mut place = sign * direction.dot(&vertex);
-        for by in displacements {
-            let (turned, shift) = along(by);
-            place -= (shift + turned.dot(&vertex)).abs();
-        }
-        least = least.min(place);
+        let moved = moves
+            .iter()
+            .map(|by| (by.shift + by.turned.dot(&vertex)).abs());
+        least = least.min(direction.dot(&vertex) - moved.sum::<f64>());
     }
     let radius = placed.shape.radius();
     if radius > 0.0 {
-        let turns = displacements.iter().map(|by| along(by).0.norm());
+        let turns = moves.iter().map(|by| by.turned.norm());
         least -= radius * (direction.norm() + turns.sum::<f64>());
     }
     least

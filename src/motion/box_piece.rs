@@ -6,7 +6,7 @@ use std::cell::OnceCell;
 use super::carried::Carried;
 use super::moving_pair::{MAX_TURN, MovingPair};
 use super::over_piece::{ManyTwists, Moved, OverPiece, PairOver};
-use super::pair_rates::PairRates;
+use super::pair_rates::{PairRates, PairRatesMemory};
 use super::way::Way;
 use crate::body::Body;
 use crate::convex::Extension;
@@ -42,15 +42,24 @@ enum SecondOrder {
 }
 
 impl<'a> BoxPiece<'a> {
-    /// `motions` are those of the way, `poses` those of all links at its middle.
-    pub fn new(way: &'a Way<'a>, motions: &'a LinkMotions, poses: &'a [Pose]) -> Self {
+    /// `motions` are those of the way, `poses` those of all links at its middle. The memory is that of the last box.
+    pub fn new(
+        way: &'a Way<'a>,
+        motions: &'a LinkMotions,
+        poses: &'a [Pose],
+        memory: PairRatesMemory,
+    ) -> Self {
         Self {
             way,
             motions,
             twists: LinkTwists::new(motions, poses),
-            rates: PairRates::new(motions),
+            rates: PairRates::in_memory(motions, memory),
             in_world: OnceCell::new(),
         }
+    }
+
+    pub fn into_memory(self) -> PairRatesMemory {
+        self.rates.into_memory()
     }
 
     fn space(&self) -> &Space {

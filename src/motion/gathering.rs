@@ -106,8 +106,8 @@ impl<'a, 'k> Gathering<'a, 'k> {
 
     fn pure(&mut self, set: &PureSet) -> Result<MovingLeaf> {
         let (way, complement) = (self.way, self.complement);
-        let rates = &self.links.rates;
-        let places = &mut |link| rates.rounding_of_link(link, self.scene.poses());
+        let speeds = &self.links.rates.speeds;
+        let places = &mut |link| speeds.rounding(link, self.scene.poses());
         let is_predicate = matches!(set.shape, PureShape::Predicate(_));
         if let Some(start) = self.start {
             return Ok(MovingLeaf::Pure(MovingPure::after_start(

@@ -6,6 +6,7 @@ use super::balls::Balls;
 use super::carried::Carried;
 use super::kinematics::Kinematics;
 use super::linear_motion::{LinearMotion, extent};
+use super::link_rounding::LinkRounding;
 use super::pair_rates::PairRates;
 use super::way::{Way, WayKind};
 use crate::pose::Vec3;
@@ -53,7 +54,7 @@ impl<'a, 'k> LinksOnWay<'a, 'k> {
         let share = share(way);
         let look_at = |link: usize| {
             let (body, pose) = scene.link(link)?;
-            let (speed, radius) = (rates.speed(link), body.radius_from_origin());
+            let (speed, radius) = (rates.speeds.of(link), body.radius_from_origin());
             let by_speed =
                 share * speed.at_radius(radius) + speed.rounding.of_places(radius, share);
             let is_known = !speed.is_unknown && !by_speed.is_nan();
@@ -164,11 +165,14 @@ impl<'a, 'k> LinksOnWay<'a, 'k> {
     /// What rounding may move a body that a link carries, at the middle and at any other time together; no point of the body is farther
     /// than `radius` from the link's origin.
     pub fn rounding_of_link(&self, link: usize, radius: f64) -> f64 {
-        let rounding = self.rates.rounding_of_link(link, self.scene.poses());
-        let LinearMotion { q, cobject, .. } = self.way.line;
-        let space = cobject.space();
-        let of_coordinates = space.motion_bound_of_radius(link, radius, q, &self.rounding);
-        rounding.of_places(radius, self.share()) + of_coordinates
+        let rounding = LinkRounding {
+            motion: &self.way.line,
+            speeds: &self.rates.speeds,
+            poses: self.scene.poses(),
+            of_coordinates: &self.rounding,
+            share: self.share(),
+        };
+        rounding.within(link, radius)
     }
 
     /// Bounds the change of the distance of a pair to which not only a link's own body belongs, by the motion of its bodies.

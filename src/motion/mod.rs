@@ -18,6 +18,7 @@ mod hulls_tried;
 mod interval_proof;
 mod kinematics;
 mod linear_motion;
+mod link_rounding;
 mod links_on_way;
 mod look;
 mod look_at_boxes;

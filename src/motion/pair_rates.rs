@@ -1,17 +1,16 @@
 //! How fast the bodies of pairs move as the other one sees them.
 
 use super::carried::Carried;
-use crate::pose::Pose;
 use crate::robot::{
-    ChainRates, ChainRounding, LinkMotions, LinkSpeed, MotionRates, RatesFrom, RatesMemory,
+    ChainRates, ChainRounding, LinkMotions, LinkSpeed, LinkSpeeds, MotionRates, RatesFrom,
+    RatesMemory,
 };
 
 /// How fast bodies move as others see them, found for one pair after the other. It is quickest where pairs follow each other that have
 /// the same A and Bs that rest, or Bs of the same link.
 pub(super) struct PairRates<'a> {
-    motions: &'a LinkMotions,
     /// Of all links.
-    speeds: Vec<LinkSpeed>,
+    pub speeds: LinkSpeeds<'a>,
     in_world: RatesFrom<'a>,
     /// As the link sees it that carried B last.
     on_link: RatesFrom<'a>,
@@ -34,32 +33,20 @@ impl<'a> PairRates<'a> {
 
     /// The same, in memory that is used again.
     pub fn in_memory(motions: &'a LinkMotions, memory: PairRatesMemory) -> Self {
-        let PairRatesMemory {
-            mut speeds,
-            in_world,
-            on_link,
-        } = memory;
-        motions.speeds(&mut speeds);
         Self {
-            motions,
-            speeds,
-            in_world: RatesFrom::in_memory(motions, None, in_world),
-            on_link: RatesFrom::in_memory(motions, None, on_link),
+            speeds: LinkSpeeds::in_memory(motions, memory.speeds),
+            in_world: RatesFrom::in_memory(motions, None, memory.in_world),
+            on_link: RatesFrom::in_memory(motions, None, memory.on_link),
             last_body: None,
         }
     }
 
     pub fn into_memory(self) -> PairRatesMemory {
         PairRatesMemory {
-            speeds: self.speeds,
+            speeds: self.speeds.into_memory(),
             in_world: self.in_world.into_memory(),
             on_link: self.on_link.into_memory(),
         }
-    }
-
-    /// How fast a link moves in the world.
-    pub fn speed(&self, link: usize) -> &LinkSpeed {
-        &self.speeds[link]
     }
 
     /// The derivatives of A's centre as B sees it; `None` where a custom joint moves between them.
@@ -76,7 +63,7 @@ impl<'a> PairRates<'a> {
                 }
                 let mut rates = at_center(self.on_link.of(a.link)?, a);
                 for link in [from, a.link] {
-                    rates.rounding.take_in(&self.speeds[link].rounding);
+                    rates.rounding.take_in(&self.speeds.of(link).rounding);
                 }
                 rates
             }
@@ -94,20 +81,11 @@ impl<'a> PairRates<'a> {
     ) -> ChainRounding {
         let mut rounding = ChainRounding::default();
         for link in std::iter::once(a.link).chain(b.link) {
-            rounding.take_in(&self.speeds[link].rounding);
+            rounding.take_in(&self.speeds.of(link).rounding);
         }
         for pose in [a.pose, b.pose].into_iter().flatten() {
             rounding.size += pose.translation.norm();
         }
-        rounding
-    }
-
-    /// What the rounding of a link's place comes from, given the poses of all links.
-    pub fn rounding_of_link(&self, link: usize, poses: &[Pose]) -> ChainRounding {
-        let mut rounding = self.speeds[link].rounding;
-        rounding.size += self
-            .motions
-            .lengths_of_unknown_joints(link, |link| &poses[link]);
         rounding
     }
 

@@ -9,6 +9,7 @@ use super::moving_set::{Middle, MovingSet};
 use super::over_pairs::OverPairs;
 use super::over_piece::ManyTwists;
 use super::pair_look::PairLook;
+use super::pair_rates::PairRatesMemory;
 use super::set_tree::SetVerdict;
 use super::way::{Way, WayKind};
 use crate::cobject::CObject;
@@ -201,6 +202,7 @@ struct Lists<'a> {
     over: OverPairs<'a, ManyTwists>,
     verdicts: Vec<SetVerdict>,
     memory: Vec<SetVerdict>,
+    rates: PairRatesMemory,
     whole_half: Vec<f64>,
 }
 
@@ -233,6 +235,7 @@ impl Work for Prover<'_, '_, '_> {
             over: OverPairs::new(set.pairs.len(), Default::default()),
             verdicts: vec![SetVerdict::Undecided; set.leaves.len()],
             memory: Vec::new(),
+            rates: PairRatesMemory::default(),
             whole_half: region.center(space).half,
         };
         let follows_solids = !set.tree.is_plain_union();
@@ -289,16 +292,28 @@ impl<'a> Prover<'a, '_, '_> {
         center: &Center,
         lists: &mut Lists<'a>,
     ) -> Result<Looked> {
-        let RegionProof {
-            world,
-            cobject,
-            set,
-            ..
-        } = self.proof;
+        let RegionProof { world, cobject, .. } = self.proof;
         let way = &rest.region.way(world, cobject, center);
         let motions = &way.link_motions();
         let poses = &way.link_poses(0.0)?;
-        let piece = &mut BoxPiece::new(way, motions, poses);
+        let rates = std::mem::take(&mut lists.rates);
+        let mut piece = BoxPiece::new(way, motions, poses, rates);
+        let looked = self.look_with(lanes, rest, way, &mut piece, lists);
+        lists.rates = piece.into_memory();
+        looked
+    }
+
+    /// The same, with the pairs as they are over the part.
+    #[inline(always)]
+    fn look_with<I: Instructions>(
+        &mut self,
+        lanes: I,
+        rest: &Rest,
+        way: &Way,
+        piece: &mut BoxPiece,
+        lists: &mut Lists<'a>,
+    ) -> Result<Looked> {
+        let set = self.proof.set;
         lists.verdicts.fill(SetVerdict::Undecided);
         let mut look = Look {
             pairs: &set.pairs,
@@ -328,10 +343,11 @@ impl<'a> Prover<'a, '_, '_> {
         if whole == SetVerdict::Free {
             return Ok(Looked::Free);
         }
-        if let Some(at) = self.meeting(whole, &center.q, rest.volume == 1.0)? {
+        let middle = way.line.q;
+        if let Some(at) = self.meeting(whole, middle, rest.volume == 1.0)? {
             return Ok(Looked::Meets(at));
         }
-        let mut shares = vec![0.0; cobject.space().nv()];
+        let mut shares = vec![0.0; way.line.v.len()];
         lists.front.raise_shares(&left, set, piece, &mut shares);
         let halved = widest(way, shares, &lists.whole_half);
         Ok(Looked::Left(left, halved))

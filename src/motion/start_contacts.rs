@@ -5,16 +5,17 @@
 
 use super::half_spaces::dot;
 use super::linear_motion::{LinearMotion, STEP_FRACTION};
-use super::pair_rates::PairRates;
+use super::link_rounding::LinkRounding;
 use super::set_tree::{LeafContent, SetTree};
 use super::slide_step::Approach;
-use super::start_obstacle::{Obstacle, PairAtStart, Places, Separation};
+use super::start_obstacle::{Obstacle, PairAtStart, Separation, Start};
 use super::way::Way;
 use crate::cobject::{Induced, PureSet};
 use crate::error::Result;
 use crate::query::{
     CacheKey, CandidateFilter, Configuration, Group, QueryContext, Target, WitnessRequest,
 };
+use crate::robot::LinkSpeeds;
 
 /// How far a pair that touches at the start may move before the interval proof follows it.
 #[derive(Clone, Copy)]
@@ -62,7 +63,7 @@ impl StartContacts {
 struct Near<'n, 'p> {
     /// Bounds how much the distance falls in the whole motion.
     rate: f64,
-    places: &'n Places<'p>,
+    start: &'n Start<'p>,
     allowance: &'n TouchAllowance,
 }
 
@@ -74,14 +75,19 @@ impl QueryContext {
         motion: &LinearMotion,
         allowance: &TouchAllowance,
     ) -> Result<Option<StartContacts>> {
-        let start = &motion.scene(motion.q)?;
+        let scene = &motion.scene(motion.q)?;
         let way = Way::straight(*motion);
         let motions = way.link_motions();
-        let places = &Places {
+        let start = &Start {
             motion,
-            start,
-            rates: &PairRates::new(&motions),
-            of_coordinates: &way.rounding(),
+            scene,
+            rounding: LinkRounding {
+                motion,
+                speeds: &LinkSpeeds::new(&motions),
+                poses: scene.poses(),
+                of_coordinates: &way.rounding(),
+                share: 1.0,
+            },
         };
         let mut found = StartContacts::default();
         for leaf in &SetTree::new(motion.cobject, false).leaves {
@@ -89,13 +95,11 @@ impl QueryContext {
                 LeafContent::Induced(group) => {
                     let mut terms = group.chunks(1);
                     terms.try_fold(true, |goes_on, term| {
-                        Ok(goes_on && self.add_near_pairs(places, term, allowance, &mut found)?)
+                        Ok(goes_on && self.add_near_pairs(start, term, allowance, &mut found)?)
                     })?
                 }
                 LeafContent::Known(_) => true,
-                LeafContent::Pure(set) => {
-                    self.add_near_parts(places, set, allowance, &mut found)?
-                }
+                LeafContent::Pure(set) => self.add_near_parts(start, set, allowance, &mut found)?,
             };
             if !goes_on {
                 return Ok(None);
@@ -106,16 +110,16 @@ impl QueryContext {
 
     fn add_near_pairs(
         &mut self,
-        places: &Places,
+        start: &Start,
         term: &Group,
         allowance: &TouchAllowance,
         found: &mut StartContacts,
     ) -> Result<bool> {
-        let &Places { motion, start, .. } = places;
-        let checked = start.checked(term)?;
+        let &Start { motion, scene, .. } = start;
+        let checked = scene.checked(term)?;
         let filter = CandidateFilter::within(allowance.distance);
         let meter = self.scratch.meter_mut();
-        let candidates = start.candidates(checked, filter, &mut self.candidates, meter)?;
+        let candidates = scene.candidates(checked, filter, &mut self.candidates, meter)?;
         for &target in &candidates {
             if target.bound > allowance.distance {
                 continue;
@@ -123,8 +127,8 @@ impl QueryContext {
             // Searched alone, so its rank is 0: hits name their pair by rank.
             let target = Target { rank: 0, ..target };
             let near = Near {
-                rate: motion.rate(start, &target),
-                places,
+                rate: motion.rate(scene, &target),
+                start,
                 allowance,
             };
             let Some(time) = near.followed_from(self, &PairAtStart { term, target })? else {
@@ -139,19 +143,19 @@ impl QueryContext {
 
     fn add_near_parts(
         &mut self,
-        places: &Places,
+        start: &Start,
         set: &PureSet,
         allowance: &TouchAllowance,
         found: &mut StartContacts,
     ) -> Result<bool> {
-        let motion = places.motion;
+        let motion = start.motion;
         let space = motion.cobject.space();
         let straight = || space.straight(motion.q, motion.v).collect();
         let parts = set.parts_on_way(space, straight);
         for (number, part) in parts.iter().enumerate() {
             let near = Near {
                 rate: part.motion_bound(space, motion.q, motion.v),
-                places,
+                start,
                 allowance,
             };
             let Some(time) = near.followed_from(self, part)? else {
@@ -177,11 +181,11 @@ impl Near<'_, '_> {
             return Ok(Some(1.0));
         }
         let cutoff = self.allowance.distance;
-        let (lower, plane) = obstacle.at_start(context, self.places, cutoff)?;
+        let (lower, plane) = obstacle.at_start(context, self.start, cutoff)?;
         if lower >= cutoff {
             return Ok(Some(0.0));
         }
-        let rounding = obstacle.rounding(self.places);
+        let rounding = obstacle.rounding(self.start);
         if plane.as_ref().is_some_and(|plane| plane.lasts(rounding)) {
             let stays = lower <= 0.0 || self.is_apart_at(context, obstacle, 1.0)?;
             return Ok(stays.then_some(1.0));
@@ -203,7 +207,7 @@ impl Near<'_, '_> {
         obstacle: &impl Obstacle,
         lower: f64,
     ) -> Result<Option<f64>> {
-        let bend = 2.0 * self.rate * obstacle.turn(self.places.motion);
+        let bend = 2.0 * self.rate * obstacle.turn(self.start.motion);
         let mut share = self.allowed_share(self.rate);
         if bend > 0.25 * lower {
             share = share.min((0.25 * lower / bend).sqrt());
@@ -247,8 +251,8 @@ impl Near<'_, '_> {
         obstacle: &impl Obstacle,
         time: f64,
     ) -> Result<bool> {
-        let LinearMotion { world, cobject, .. } = *self.places.motion;
-        let q = self.places.motion.at(time);
+        let LinearMotion { world, cobject, .. } = *self.start.motion;
+        let q = self.start.motion.at(time);
         let at = Configuration::Coordinates(&q);
         context.with_scene(cobject, world, at, |context, scene| {
             Ok(obstacle.lower(context, scene, self.allowance.distance)? > 0.0)
@@ -270,9 +274,9 @@ impl Near<'_, '_> {
             counts_doubt: true,
             ..WitnessRequest::within(allowance.distance / STEP_FRACTION, allowance.max_count)
         };
-        let list = obstacle.witnesses(context, self.places.start, request)?;
+        let list = obstacle.witnesses(context, self.start.scene, request)?;
         let keeps_off =
-            |a: &Approach| a.clearance + time * dot(a.gradient, self.places.motion.v) >= lowest;
+            |a: &Approach| a.clearance + time * dot(a.gradient, self.start.motion.v) >= lowest;
         let is_known = !list.truncated && list.witnesses.iter().all(|w| w.contact_count > 0);
         Ok(is_known && list.approaches().iter().all(keeps_off))
     }

@@ -2,7 +2,7 @@
 //! and what rounding may do to its place.
 
 use super::linear_motion::{LinearMotion, STEP_FRACTION, extent};
-use super::pair_rates::PairRates;
+use super::link_rounding::LinkRounding;
 use crate::cobject::{PureSet, PureShape};
 use crate::error::Result;
 use crate::query::{
@@ -20,7 +20,7 @@ pub(super) trait Obstacle {
     fn at_start(
         &self,
         context: &mut QueryContext,
-        places: &Places,
+        start: &Start,
         limit: f64,
     ) -> Result<(f64, Option<Separation>)>;
 
@@ -36,7 +36,7 @@ pub(super) trait Obstacle {
     ) -> Result<WitnessList>;
 
     /// How far rounding may move the robot's links on the way, where they are placed.
-    fn rounding(&self, places: &Places) -> f64;
+    fn rounding(&self, start: &Start) -> f64;
 
     /// Up to which distance the two count as touching, whatever rounding does on this way.
     fn touching(&self) -> f64;
@@ -45,24 +45,11 @@ pub(super) trait Obstacle {
     fn turn(&self, motion: &LinearMotion) -> f64;
 }
 
-/// What rounding may do to the places of links on a motion.
-pub(super) struct Places<'a> {
+/// A motion at its start.
+pub(super) struct Start<'a> {
     pub motion: &'a LinearMotion<'a>,
-    pub start: &'a Scene<'a>,
-    pub rates: &'a PairRates<'a>,
-    /// Bounds of how far roundings put coordinates off the way (`Way::rounding`).
-    pub of_coordinates: &'a [f64],
-}
-
-impl Places<'_> {
-    /// How far rounding may move what a link carries within a radius of its origin.
-    fn rounding(&self, link: usize, radius: f64) -> f64 {
-        let LinearMotion { cobject, q, .. } = *self.motion;
-        let rounding = self.rates.rounding_of_link(link, self.start.poses());
-        let v = self.of_coordinates;
-        let of_coordinates = cobject.space().motion_bound_of_radius(link, radius, q, v);
-        rounding.of_places(radius, 1.0) + of_coordinates
-    }
+    pub scene: &'a Scene<'a>,
+    pub rounding: LinkRounding<'a>,
 }
 
 /// A plane between a moving link and something at rest.
@@ -91,7 +78,7 @@ impl Obstacle for PairAtStart<'_> {
     fn at_start(
         &self,
         context: &mut QueryContext,
-        places: &Places,
+        start: &Start,
         limit: f64,
     ) -> Result<(f64, Option<Separation>)> {
         let target = &self.target;
@@ -108,8 +95,8 @@ impl Obstacle for PairAtStart<'_> {
         let contacts = pairing.world_contacts(hit.key.primitives, &closest, scratch);
         let along = contacts.first().and_then(|contact| {
             let normal = contact.normal;
-            let &Places { motion, start, .. } = places;
-            let rate = motion.directed_rate(start, link, target.sides[0], &normal)?;
+            let &Start { motion, scene, .. } = start;
+            let rate = motion.directed_rate(scene, link, target.sides[0], &normal)?;
             Some(Separation {
                 gap: pairing.gap_along(&normal) - target.margin(),
                 rate,
@@ -139,10 +126,11 @@ impl Obstacle for PairAtStart<'_> {
         context.list(self.term, start, &[self.target], request)
     }
 
-    fn rounding(&self, places: &Places) -> f64 {
+    fn rounding(&self, start: &Start) -> f64 {
         let [a, b] = self.target.sides;
         let (link, other) = self.target.links();
-        let of_link = |link: usize, side| places.rounding(link, extent(places.start, link, side));
+        let of_link =
+            |link: usize, side| start.rounding.within(link, extent(start.scene, link, side));
         of_link(link, a) + other.map_or(0.0, |other| of_link(other, b))
     }
 
@@ -164,21 +152,21 @@ impl Obstacle for PureSet {
     fn at_start(
         &self,
         context: &mut QueryContext,
-        &Places { motion, start, .. }: &Places,
+        &Start { motion, scene, .. }: &Start,
         limit: f64,
     ) -> Result<(f64, Option<Separation>)> {
-        let lower = self.lower(context, start, limit)?;
+        let lower = self.lower(context, scene, limit)?;
         let PureShape::Floor { links, normal, .. } = &self.shape else {
             return Ok((lower, None));
         };
         let &[link] = &links[..] else {
             return Ok((lower, None));
         };
-        let Some(measure) = self.measure(&start.space_state())? else {
+        let Some(measure) = self.measure(&scene.space_state())? else {
             return Ok((lower, None));
         };
-        let carried = start.link(link);
-        let rate = carried.and_then(|body| motion.directed_rate(start, link, body, normal));
+        let carried = scene.link(link);
+        let rate = carried.and_then(|body| motion.directed_rate(scene, link, body, normal));
         let plane = rate.map(|rate| Separation {
             gap: measure.signed - measure.error,
             rate,
@@ -204,10 +192,10 @@ impl Obstacle for PureSet {
         pure_witnesses(&[(self, false)], start, request)
     }
 
-    fn rounding(&self, places: &Places) -> f64 {
+    fn rounding(&self, start: &Start) -> f64 {
         let of_link = |&link: &usize| {
-            let body = places.start.link(link);
-            places.rounding(
+            let body = start.scene.link(link);
+            start.rounding.within(
                 link,
                 body.map_or(0.0, |(body, _)| body.radius_from_origin()),
             )

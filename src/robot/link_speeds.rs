@@ -4,7 +4,7 @@
 use super::course::CourseBounds;
 use super::link_motions::{Element, LinkMotions};
 use super::motion_rates::ChainRounding;
-use crate::pose::Vec3;
+use crate::pose::{Pose, Vec3};
 
 /// Bounds of how fast a link moves in the world on a motion.
 #[derive(Clone, Copy, Debug, Default)]
@@ -54,19 +54,50 @@ impl LinkSpeed {
     }
 }
 
-impl LinkMotions {
-    /// The speeds of all links.
-    pub fn speeds(&self, speeds: &mut Vec<LinkSpeed>) {
-        speeds.clear();
-        for link in 0..self.len() {
-            let mut speed = self
+/// The speeds of all links.
+pub struct LinkSpeeds<'a> {
+    motions: &'a LinkMotions,
+    links: Vec<LinkSpeed>,
+}
+
+impl<'a> LinkSpeeds<'a> {
+    /// Of these motions.
+    pub fn new(motions: &'a LinkMotions) -> Self {
+        Self::in_memory(motions, Vec::new())
+    }
+
+    /// The same, in memory that is used again.
+    pub fn in_memory(motions: &'a LinkMotions, mut links: Vec<LinkSpeed>) -> Self {
+        links.clear();
+        for link in 0..motions.len() {
+            let mut speed = motions
                 .parent(link)
-                .map_or_else(LinkSpeed::default, |parent| speeds[parent]);
-            speed.is_unknown |= !self.is_joint_known(link);
-            for element in self.elements_of(link) {
-                speed.push(element, self.controls());
+                .map_or_else(LinkSpeed::default, |parent| links[parent]);
+            speed.is_unknown |= !motions.is_joint_known(link);
+            for element in motions.elements_of(link) {
+                speed.push(element, motions.controls());
             }
-            speeds.push(speed);
+            links.push(speed);
         }
+        Self { motions, links }
+    }
+
+    /// What [`LinkSpeeds::in_memory`] takes.
+    pub fn into_memory(self) -> Vec<LinkSpeed> {
+        self.links
+    }
+
+    /// Of a link.
+    pub fn of(&self, link: usize) -> &LinkSpeed {
+        &self.links[link]
+    }
+
+    /// What the rounding of a link's places comes from, custom joints that move included, given the poses of all links.
+    pub fn rounding(&self, link: usize, poses: &[Pose]) -> ChainRounding {
+        let mut rounding = self.links[link].rounding;
+        rounding.size += self
+            .motions
+            .lengths_of_unknown_joints(link, |link| &poses[link]);
+        rounding
     }
 }

@@ -32,7 +32,7 @@ pub use custom_joint::{CustomJoint, MAX_COORDINATES, Speeds, Twist};
 pub use jacobian::{Column, RobotState};
 pub use joint::{Joint, JointKind};
 pub use link_motions::{CoordinateCourses, LinkMotions};
-pub use link_speeds::LinkSpeed;
+pub use link_speeds::{LinkSpeed, LinkSpeeds};
 pub use link_states::LinkStates;
 pub use link_twists::{LinkTwists, RelativeTwist, RelativeTwists};
 pub use motion_bound::Velocity;
