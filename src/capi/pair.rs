@@ -157,8 +157,9 @@ pub unsafe extern "C" fn cstk_pair_witnesses(
 
 /// Writes all primitive pairs that meet, none missing, none twice, and their penetration: the shortest translation that
 /// separates the two. It separates bodies of one convex primitive each; for bodies of several it separates the two
-/// primitives only (see `of_whole_bodies`). Exact to rounding, with radii too. The work for a pair of polyhedra grows with
-/// the number of their edges and of the pairs of edges that face each other. CSTK_ERROR_UNSUPPORTED where a cylinder, cone,
+/// primitives only (see `of_whole_bodies`). Exact to rounding, with radii too. A pair of polyhedra mostly takes some
+/// microseconds; where nearly all ways out are as long, as of balls of many corners about one centre, the work grows with the pairs of
+/// their edges that face each other. CSTK_ERROR_UNSUPPORTED where a cylinder, cone,
 /// ellipsoid or support function meets another primitive. A body wholly inside a solid (cstk_body_builder_set_solid) meets
 /// none of its primitives, and is not listed. If there are more than `max_count` pairs, the deepest are listed and
 /// `truncated` is set. The array stays valid until the next call with this query context.

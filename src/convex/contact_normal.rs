@@ -3,7 +3,7 @@
 
 use smallvec::SmallVec;
 
-use super::closest::{Closest, Segment, closest_parameters};
+use super::closest::{Closest, Segment};
 use super::contact::mode_of;
 use super::placed::{PlacedPrimitive, Precision};
 use super::polytope_distance::{feature_normal, gap_of_primitives};
@@ -162,10 +162,6 @@ impl ContactPair<'_> {
         {
             return None;
         }
-        // For round bodies with very many edges this would take too long.
-        if !planar && self.r.shape.edges.len() * self.s.shape.edges.len() > MAX_EDGE_PAIRS {
-            return None;
-        }
         let meter = &mut WorkMeter::default();
         let found = polytope_penetration(self.r, self.s, self.precision, meter);
         (found.depth <= most).then_some(found.direction)
@@ -264,15 +260,20 @@ impl LocalFeatures {
         let mut directions = Directions::new();
         for &ends in &placed.shape.edges {
             let (p, q) = placed.edge_ends(ends);
+            let (along, arm) = (q - p, point - p);
+            // Most edges are farther away than their lines, which is quick to tell.
+            let square = 2.0 * near * near * along.norm_squared();
+            if arm.cross(&along).norm_squared() > square {
+                continue;
+            }
             let segment = Segment::new((p, q));
-            let here = Segment::new((*point, *point));
-            let (_, t) = closest_parameters(&here, &segment);
-            if (segment.at(t) - point).norm() <= near {
-                directions.extend((q - p).try_normalize(0.0));
+            let nearest = segment.at(segment.nearest_parameter(point));
+            if (nearest - point).norm() <= near {
+                directions.extend(along.try_normalize(0.0));
             }
         }
         let normals = (0..placed.shape.faces.len())
-            .filter(|&f| placed.over_face(f, point).0.abs() <= near)
+            .filter(|&f| placed.height_over(f, point).abs() <= near)
             .map(|f| placed.normal(f))
             .collect();
         Self {

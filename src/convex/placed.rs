@@ -232,6 +232,12 @@ impl<'a> PlacedPrimitive<'a> {
         (self.vertex(edge[0]), self.vertex(edge[1]))
     }
 
+    /// The height of a point over a face's plane.
+    pub fn height_over(&self, face: usize, point: &Vec3) -> f64 {
+        let corner = self.vertex(self.shape.faces[face].vertices[0]);
+        self.normal(face).dot(&(point - corner))
+    }
+
     /// The height of `point` over face `face`, and whether its foot lies inside the face.
     pub fn over_face(&self, face: usize, point: &Vec3) -> (f64, bool) {
         self.over(face, point, |side| side >= 0.0)

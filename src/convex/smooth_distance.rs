@@ -221,7 +221,7 @@ pub fn feature_at(placed: &PlacedPrimitive, point: &Vec3, slack: f64) -> Feature
         return Feature::edge(i as u32);
     }
     let mut faces = 0..placed.shape.faces.len();
-    let face = faces.find(|&f| placed.over_face(f, point).0.abs() <= slack);
+    let face = faces.find(|&f| placed.height_over(f, point).abs() <= slack);
     face.map_or(Feature::interior(), |f| Feature::face(f as u32))
 }
 

@@ -11,7 +11,7 @@ use super::inner_balls::{InnerBall, common_balls};
 use super::meeting::Meeting;
 use super::node::Node;
 use crate::body::Body;
-use crate::convex::{HalfSpace, parting_half_spaces};
+use crate::convex::{HalfSpace, nearest_half_spaces, parting_half_spaces};
 use crate::pair::{Pairing, RayScratch, Scratch};
 use crate::pose::Vec3;
 use crate::tolerance::EPSILON;
@@ -246,7 +246,7 @@ impl Covers {
 }
 
 /// The half-spaces that part the primitives at two places, each once.
-pub fn parting(places: [u32; 2], pairing: &Pairing, scratch: &mut Scratch) -> Vec<HalfSpace> {
+fn parting(places: [u32; 2], pairing: &Pairing, scratch: &mut Scratch) -> Vec<HalfSpace> {
     let mut buffer = Default::default();
     let [a, b] = pairing.placed(places, &mut buffer);
     let found = parting_half_spaces(&a, &b, &pairing.precision, scratch.meter_mut());
@@ -262,6 +262,25 @@ pub fn parting(places: [u32; 2], pairing: &Pairing, scratch: &mut Scratch) -> Ve
         }
     }
     kept
+}
+
+/// Whether the primitives at two places, polytopes, have several shortest ways out, or nearly: none longer than the least by more than
+/// `within`, and their directions farther apart than `apart`.
+pub fn has_several_ways(
+    places: [u32; 2],
+    within: f64,
+    apart: f64,
+    pairing: &Pairing,
+    scratch: &mut Scratch,
+) -> bool {
+    let mut buffer = Default::default();
+    let [a, b] = pairing.placed(places, &mut buffer);
+    let spaces = nearest_half_spaces(&a, &b, &pairing.precision, within, scratch.meter_mut());
+    let Some(first) = spaces.first() else {
+        return true;
+    };
+    let is_elsewhere = |space: &HalfSpace| (space.normal - first.normal).norm() > apart;
+    spaces.iter().any(is_elsewhere)
 }
 
 /// An estimate of how deep a translation is in the difference of two round primitives.

@@ -11,7 +11,7 @@ use std::collections::{BinaryHeap, HashMap};
 use foldhash::fast::RandomState;
 
 use super::answer::{Depth, DepthOptions};
-use super::covers::{CoverParts, Covers, parting};
+use super::covers::{CoverParts, Covers, has_several_ways};
 use super::difference::Difference;
 use super::inner_balls::widened;
 use super::least::least;
@@ -163,15 +163,8 @@ impl<'a, 's> DepthSearch<'a, 's> {
         if cores.is_some_and(|found| found.cores.distance > self.pairing.precision.error) {
             return false;
         }
-        let spaces = parting(places, &self.pairing, self.scratch);
-        let least = spaces.iter().min_by(|a, b| a.offset.total_cmp(&b.offset));
-        let Some(least) = least else {
-            return true;
-        };
-        spaces.iter().any(|space| {
-            space.offset <= least.offset + self.clearance
-                && (space.normal - least.normal).norm() > OTHER_WAY
-        })
+        let (pairing, scratch) = (&self.pairing, &mut *self.scratch);
+        has_several_ways(places, self.clearance, OTHER_WAY, pairing, scratch)
     }
 
     /// Tries the axes, the line of the centres, and the ways out of what is nearest, unless a way out is known that is no longer.

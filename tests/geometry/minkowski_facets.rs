@@ -203,7 +203,7 @@ fn ball(count: usize, random: &mut Random) -> Shape {
 }
 
 #[test]
-fn few_of_all_pairs_of_edges_are_compared() {
+fn few_facets_are_looked_at() {
     let mut random = Random::new(74);
     let mut query = QueryContext::new();
     for count in [500, 1000, 2000] {
@@ -211,7 +211,7 @@ fn few_of_all_pairs_of_edges_are_compared() {
         let poses = [random.pose(0.1), random.pose(0.1)];
         let sides = [0, 1].map(|i| (&*shapes[i].body, &poses[i]));
         // A convex polyhedron of n triangle corners has 3 n - 6 edges, and hence 9 n^2 pairs of them.
-        query.set_limit(Some(600 * count as u64));
+        query.set_limit(Some(2 * count as u64));
         let list = query.pair_penetration(sides[0], sides[1], 1).unwrap();
         assert!(list.penetrations[0].penetration.depth > 1.0);
     }

@@ -131,20 +131,20 @@ fn queries_of_two_bodies() {
     );
     let found = with_limit(Some(2 * needed)).unwrap();
     assert_eq!(format!("{found:?}"), format!("{want:?}"));
-    // One pair of primitives, thousands of pairs of edges.
+    // One pair of primitives, of whose difference some facets are looked at.
     let (a, b) = ((&*balls[0], &here), (&*balls[1], &there));
     let mut query = QueryContext::new();
-    query.set_limit(Some(1000));
+    query.set_limit(Some(4));
     let error = query.pair_penetration(a, b, 1).unwrap_err();
     assert_eq!(error.kind, ErrorKind::Limit);
-    query.set_limit(Some(1_000_000));
+    query.set_limit(Some(1000));
     assert_eq!(
         query.pair_penetration(a, b, 1).unwrap().penetrations.len(),
         1
     );
 }
 
-/// Depths also count pairs of edges, which statistics do not show: limits are tried from one to enough.
+/// Depths also count what statistics do not show: limits are tried from one to enough.
 #[test]
 fn depths_of_two_bodies() {
     let mut random = Random::new(92);
