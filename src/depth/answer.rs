@@ -10,9 +10,6 @@ pub struct DepthOptions {
     pub tolerance: f64,
     /// Nodes to take, at most.
     pub max_steps: u64,
-    /// Goes on between polytopes until other ways out of the same length are found or excluded: they tell whether the depth has a
-    /// derivative.
-    pub seeks_rivals: bool,
 }
 
 impl DepthOptions {
@@ -25,7 +22,6 @@ impl Default for DepthOptions {
         Self {
             tolerance: 0.0,
             max_steps: 1000,
-            seeks_rivals: false,
         }
     }
 }
@@ -39,14 +35,20 @@ pub struct Depth {
     pub upper: f64,
     /// A translation of A after which the bodies are proved apart, in A's centred frame.
     pub way: Vec3,
-    /// What touches after it.
+    /// The bounds are within the tolerance.
+    pub is_tight: bool,
+    /// Nodes taken.
+    pub steps: u64,
+}
+
+/// A depth, and what it is owed to: what its derivative needs.
+#[derive(Clone, Debug)]
+pub struct ExplainedDepth {
+    pub depth: Depth,
+    /// What touches after the way out.
     pub out: WayOut,
     /// The contact that `out` names first, or the nearest one; `None` without contacts.
     pub first: Option<Touching>,
     /// Another way out, of the same length but elsewhere, is known or not excluded.
     pub has_rival: bool,
-    /// The bounds are within the tolerance.
-    pub is_tight: bool,
-    /// Nodes taken.
-    pub steps: u64,
 }

@@ -16,7 +16,7 @@ mod node;
 mod search;
 mod touching;
 
-pub use answer::{Depth, DepthOptions};
+pub use answer::{Depth, DepthOptions, ExplainedDepth};
 pub use inside::{require_exact, require_inside};
 pub use search::DepthSearch;
 pub use touching::{Touching, WayOut, touching_at};

@@ -10,7 +10,7 @@ use std::collections::{BinaryHeap, HashMap};
 
 use foldhash::fast::RandomState;
 
-use super::answer::{Depth, DepthOptions};
+use super::answer::{Depth, DepthOptions, ExplainedDepth};
 use super::covers::{CoverParts, Covers, has_several_ways};
 use super::difference::Difference;
 use super::inner_balls::widened;
@@ -30,6 +30,8 @@ pub struct DepthSearch<'a, 's> {
     scratch: &'s mut Scratch,
     tolerance: f64,
     max_steps: u64,
+    /// Goes on between polytopes until other ways out of the same length are found or excluded: they tell whether the depth has a
+    /// derivative.
     seeks_rivals: bool,
     /// Bodies farther apart than this are proved apart, with room for rounding.
     clearance: f64,
@@ -79,7 +81,7 @@ impl<'a, 's> DepthSearch<'a, 's> {
             scratch,
             tolerance,
             max_steps: options.max_steps,
-            seeks_rivals: options.seeks_rivals,
+            seeks_rivals: false,
             clearance: 4.0 * precision.error,
             error: 2.0 * precision.error,
             rounding: 8.0 * EPSILON * precision.size,
@@ -95,7 +97,28 @@ impl<'a, 's> DepthSearch<'a, 's> {
     }
 
     /// Bounds of the depth. Meaningless if the meter's limit is exceeded.
-    pub fn run(mut self) -> Depth {
+    pub fn bounds(mut self) -> Depth {
+        self.find_bounds()
+    }
+
+    /// The same, with what the depth is owed to.
+    pub fn explained(mut self) -> ExplainedDepth {
+        self.seeks_rivals = true;
+        let depth = self.find_bounds();
+        let is_open = |node: &Node| {
+            node.bound <= self.upper + self.clearance && self.is_elsewhere(&node.point)
+        };
+        let has_rival = self.has_rival || self.nodes.iter().any(is_open);
+        let (out, first) = self.what_touches();
+        ExplainedDepth {
+            depth,
+            out,
+            first,
+            has_rival,
+        }
+    }
+
+    fn find_bounds(&mut self) -> Depth {
         let least_depth = self.begin();
         if self.upper - least_depth > self.tolerance {
             self.search(least_depth);
@@ -104,20 +127,12 @@ impl<'a, 's> DepthSearch<'a, 's> {
             Some(node) => node.bound.min(self.floor),
             None => self.floor,
         };
-        let is_open = |node: &Node, search: &Self| {
-            node.bound <= search.upper + search.clearance && search.is_elsewhere(&node.point)
-        };
-        let is_rivalled = self.nodes.iter().any(|node| is_open(node, &self));
         let lower = lower.max(least_depth).min(self.upper);
-        let (out, first) = self.explained();
         Depth {
             lower,
             is_tight: self.upper - lower <= self.tolerance.max(4.0 * self.clearance),
             upper: self.upper,
             way: self.way,
-            out,
-            first,
-            has_rival: self.has_rival || is_rivalled,
             steps: self.steps,
         }
     }
@@ -150,7 +165,8 @@ impl<'a, 's> DepthSearch<'a, 's> {
         self.first_ways();
         if self.upper - least_depth <= self.tolerance {
             self.floor = least_depth;
-            self.has_rival = deepest.is_none_or(|places| self.has_equal_depths(places));
+            self.has_rival =
+                self.seeks_rivals && deepest.is_none_or(|places| self.has_equal_depths(places));
         }
         least_depth
     }
@@ -398,7 +414,7 @@ impl<'a, 's> DepthSearch<'a, 's> {
     }
 
     /// What touches after the way out.
-    fn explained(&mut self) -> (WayOut, Option<Touching>) {
+    fn what_touches(&mut self) -> (WayOut, Option<Touching>) {
         if self.upper == f64::INFINITY || self.scratch.meter().is_exceeded() {
             return Default::default();
         }

@@ -4,7 +4,7 @@ use super::context::{QueryContext, check_threshold};
 use super::pairs::target;
 use super::target::{Placement, Target};
 use crate::body::Body;
-use crate::depth::{Depth, DepthOptions, DepthSearch, require_exact, require_inside};
+use crate::depth::{DepthOptions, DepthSearch, require_exact, require_inside};
 use crate::error::Result;
 use crate::pose::Vec3;
 
@@ -50,7 +50,7 @@ impl QueryContext {
         };
         let target = target(hull(a, wholes[0]), hull(b, wholes[1]))?;
         let excess = wholes.into_iter().flatten().map(|(_, excess)| excess);
-        let found = self.depth_of(&target, options)?;
+        let found = self.searched_depth(&target, options, |search| search.bounds())?;
         let pairing = target.pairing();
         Ok(PairDepth {
             meet: true,
@@ -63,11 +63,19 @@ impl QueryContext {
     }
 
     /// The depth of a target that meets, in the centred frame of its first body.
-    pub(super) fn depth_of(&mut self, target: &Target, options: &DepthOptions) -> Result<Depth> {
+    pub(super) fn searched_depth<D>(
+        &mut self,
+        target: &Target,
+        options: &DepthOptions,
+        search: impl FnOnce(DepthSearch) -> D,
+    ) -> Result<D> {
         let [(a, _), (b, _)] = target.sides;
         require_inside(a, b)?;
-        let pairing = target.pairing();
-        let found = DepthSearch::new(&pairing, options, &mut self.scratch).run();
+        let found = search(DepthSearch::new(
+            &target.pairing(),
+            options,
+            &mut self.scratch,
+        ));
         self.scratch.meter().check()?;
         Ok(found)
     }

@@ -3,7 +3,7 @@
 use super::scene::Scene;
 use super::target::Target;
 use super::witnesses::push_gradient;
-use crate::depth::{Depth, Touching, touching_at};
+use crate::depth::{ExplainedDepth, Touching, touching_at};
 use crate::error::Result;
 use crate::pair::{Hit, Pairing, Scratch};
 use crate::pose::Vec3;
@@ -130,9 +130,10 @@ impl Derivative {
 
     /// For bodies that meet. The way out t is as long as the half-spaces n_k . t >= o_k make it that touch after it; the derivative of |t| is
     /// the sum of their multipliers times the derivatives of o_k - n_k . t, which are those of the distances of what touches there.
-    pub fn of_way_out(seen: &SeenPair, depth: &Depth) -> Result<Self> {
+    pub fn of_way_out(seen: &SeenPair, found: &ExplainedDepth) -> Result<Self> {
+        let depth = &found.depth;
         let direction = depth.way / depth.upper;
-        let Some(first) = &depth.first else {
+        let Some(first) = &found.first else {
             return Ok(Self {
                 normal: seen.pairing.frame.rotation * direction,
                 kind: GradientKind::Approximate,
@@ -140,8 +141,8 @@ impl Derivative {
             });
         };
         let mut sum = vec![0.0; seen.scene.space().nv()];
-        let mut is_one = !depth.has_rival;
-        for (weight, contacts) in &depth.out.terms {
+        let mut is_one = !found.has_rival;
+        for (weight, contacts) in &found.out.terms {
             let normal = contacts[0].normal * *weight;
             let own = seen.row(&normal, &contacts[0])?;
             is_one &= !contacts.iter().any(|contact| seen.is_flat(contact));
@@ -150,17 +151,17 @@ impl Derivative {
             }
             sum.iter_mut().zip(&own).for_each(|(sum, x)| *sum += x);
         }
-        if depth.out.terms.is_empty() {
+        if found.out.terms.is_empty() {
             sum = seen.row(&direction, first)?;
             is_one &= !seen.is_flat(first);
         }
-        let is_known = depth.is_tight && depth.out.is_explained;
+        let is_known = depth.is_tight && found.out.is_explained;
         let (normal, points) = seen.in_world(&direction, first);
         Ok(Self {
             row: sum,
             normal,
             points,
-            kind: match (is_known, is_one && depth.out.is_regular) {
+            kind: match (is_known, is_one && found.out.is_regular) {
                 (false, _) => GradientKind::Approximate,
                 (true, false) => GradientKind::OneOfSeveral,
                 (true, true) => GradientKind::Derivative,

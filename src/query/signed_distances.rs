@@ -180,12 +180,9 @@ impl QueryContext {
                 row: undefined.row,
             }));
         }
-        let options = DepthOptions {
-            seeks_rivals: true,
-            ..*options
-        };
-        let depth = self.depth_of(target, &options)?;
-        let out = Derivative::of_way_out(seen, &depth)?;
+        let found = self.searched_depth(target, options, |search| search.explained())?;
+        let out = Derivative::of_way_out(seen, &found)?;
+        let depth = &found.depth;
         let pair = SignedDistance {
             distance: -depth.upper - margin,
             lower: -depth.upper - margin,
