@@ -62,7 +62,6 @@ impl From<&cstk_depth_options> for DepthOptions {
                 0 => DepthOptions::default().max_steps,
                 steps => steps,
             },
-            ..Default::default()
         }
     }
 }

@@ -44,7 +44,6 @@ fn depth(a: (&Body, &Pose), b: (&Body, &Pose)) -> PairDepth {
     let options = DepthOptions {
         tolerance: 0.02,
         max_steps: 150,
-        ..DepthOptions::default()
     };
     QueryContext::new().pair_depth(a, b, &options).unwrap()
 }

@@ -17,7 +17,6 @@ pub fn depth_to(a: (&Body, &Pose), b: (&Body, &Pose), tolerance: f64, max_steps:
     let options = DepthOptions {
         tolerance,
         max_steps,
-        ..DepthOptions::default()
     };
     let found = QueryContext::new().pair_depth(a, b, &options).unwrap();
     check(a, b, &found);

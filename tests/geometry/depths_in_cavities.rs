@@ -108,7 +108,6 @@ fn check_cavities(is_at_origin: bool, seed: u64) {
                 let options = DepthOptions {
                     tolerance: 0.01,
                     max_steps: 300,
-                    ..DepthOptions::default()
                 };
                 for bodies in [
                     [(small, &from), (&*walls, &fixed)],
