@@ -22,6 +22,7 @@ mod flat_contact;
 mod gauss_arcs;
 mod level_features;
 mod likely_parts;
+mod near_ways;
 mod nearest_edges;
 mod nearest_parts;
 mod outline;
@@ -38,6 +39,7 @@ mod polytope_penetration;
 mod smooth_distance;
 mod surface_part;
 mod sweep;
+mod way;
 mod ways_out;
 
 pub use self::core::Core;
@@ -58,4 +60,5 @@ pub use polygon_distance::{NearestFeatures, PolygonDistance, polygon_closest, po
 pub use polytope_distance::{DistanceScratch, cuboid};
 pub use polytope_penetration::Penetration;
 pub use sweep::{Extension, Sweep, stays_apart_along};
-pub use ways_out::{HalfSpace, nearest_half_spaces, parting_half_spaces};
+pub use way::HalfSpace;
+pub use ways_out::{nearest_half_spaces, parting_half_spaces};

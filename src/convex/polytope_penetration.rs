@@ -6,7 +6,8 @@
 use super::closest::{FeatureSet, closest_features};
 use super::placed::{PlacedPrimitive, Precision};
 use super::polytope_distance::{DistanceScratch, closest_polytopes};
-use super::ways_out::{Way, shortest_way};
+use super::way::Way;
+use super::ways_out::shortest_way;
 use crate::gjk::DistanceLimits;
 use crate::pose::Vec3;
 use crate::tolerance;

@@ -105,6 +105,13 @@ impl Cuboid {
         Some(())
     }
 
+    /// The lowest number of the edges along an axis.
+    pub fn edge_along(&self, axis: usize) -> u32 {
+        let at_low_end = (0..8).filter(|corner| corner >> axis & 1 == 0);
+        let edges = at_low_end.map(|corner| self.edges[axis][corner]);
+        u32::from(edges.min().unwrap_or_default())
+    }
+
     /// A point of the primitive's frame, in the box's frame.
     #[inline(always)]
     pub fn seen(&self, point: &Vec3) -> Vec3 {

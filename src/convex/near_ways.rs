@@ -1,0 +1,150 @@
+//! The shortest ways out of a polytope from another, among those along the normals of their Minkowski difference's facets.
+//!
+//! Of two boxes the depths along all lines have closed forms. Of others the nearest facets are found by a polytope that expands within
+//! the difference, which proves that all others are farther.
+
+use smallvec::SmallVec;
+
+use super::cuboid_axes::{CuboidAxes, EdgeGap, GAP_ERROR};
+use super::expanding_polytope::nearest_facets;
+use super::placed::{PlacedPrimitive, Precision};
+use super::polytope_distance::cuboid;
+use super::way::{NO_NUMBER, Way, ways_along};
+use crate::pose::Vec3;
+use crate::primitive::{Cuboid, FeatureKind};
+use crate::work_meter::WorkMeter;
+
+/// The ways along the normals of the facets whose depth exceeds the least by no more than `within`, and some others; `None` where the
+/// facets are not found.
+pub fn near_ways(
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
+    precision: &Precision,
+    within: f64,
+    meter: &mut WorkMeter,
+) -> Option<Vec<Way>> {
+    if precision.planar {
+        return None;
+    }
+    if let Some(found) = near_ways_of_cuboids(r, s, precision, within) {
+        return Some(found);
+    }
+    let lines = Lines { sets: [r, s] };
+    let facets = nearest_facets(r, s, precision.size, within, meter)?;
+    let mut found = Vec::with_capacity(2 * facets.len());
+    for facet in facets {
+        let exact = lines.across_facet(&facet.corners);
+        if let Some((number, normal)) = exact {
+            // Facets of more than three corners are made of several triangles.
+            if found.iter().any(|way: &Way| way.rank.0 == number) {
+                continue;
+            }
+            found.extend(ways_along([r, s], number, &normal));
+        }
+        let is_as_short = |way: &Way| way.depth <= facet.height;
+        if !found.iter().any(is_as_short) {
+            found.extend(ways_along([r, s], NO_NUMBER, &facet.normal));
+        }
+    }
+    Some(found)
+}
+
+/// The lines along which facets of the difference may be, each with its number.
+struct Lines<'a> {
+    sets: [&'a PlacedPrimitive<'a>; 2],
+}
+
+/// A line's number, and a unit vector along it.
+type Line = (u64, Vec3);
+
+impl Lines<'_> {
+    /// Across a face of one of the sets.
+    fn across_face(&self, side: usize, face: u32) -> Line {
+        let before = match side {
+            0 => 0,
+            _ => self.sets[0].shape.faces.len() as u64,
+        };
+        let normal = self.sets[side].normal(face as usize);
+        (before + u64::from(face), normal)
+    }
+
+    /// Across an edge of each; `None` where they are parallel.
+    fn across_edges(&self, edges: [u32; 2]) -> Option<Line> {
+        let [along_r, along_s] = [0, 1].map(|side| {
+            let placed = self.sets[side];
+            let (from, to) = placed.edge_ends(placed.shape.edges[edges[side] as usize]);
+            to - from
+        });
+        let [r, s] = self.sets.map(|placed| placed.shape);
+        let before = (r.faces.len() + s.faces.len()) as u64;
+        let pair = u64::from(edges[0]) * s.edges.len() as u64 + u64::from(edges[1]);
+        let normal = along_r.cross(&along_s).try_normalize(0.0)?;
+        Some((before + pair, normal))
+    }
+
+    /// Across a facet of the difference, by the features of both sets that make it.
+    fn across_facet(&self, corners: &[[u32; 2]; 3]) -> Option<Line> {
+        let features = [0, 1].map(|side| {
+            let mut names: SmallVec<[u32; 3]> = corners.iter().map(|of| of[side]).collect();
+            names.sort_unstable();
+            names.dedup();
+            self.sets[side].feature_of(&names)
+        });
+        let index = |side: usize, kind: FeatureKind| {
+            let feature = features[side].filter(|feature| feature.kind == kind);
+            feature.map(|feature| feature.index)
+        };
+        if let Some(side) = (0..2).find(|&side| index(side, FeatureKind::Face).is_some()) {
+            return Some(self.across_face(side, index(side, FeatureKind::Face)?));
+        }
+        self.across_edges([index(0, FeatureKind::Edge)?, index(1, FeatureKind::Edge)?])
+    }
+}
+
+/// The lowest number of the two faces across an axis.
+fn lowest_face(cuboid: &Cuboid, axis: usize) -> u32 {
+    let faces = [false, true].map(|is_high| cuboid.face_across(axis, is_high).index);
+    faces[0].min(faces[1])
+}
+
+/// [`near_ways`] of two boxes: their 15 lines have depths in closed form, which say which of them are to be measured.
+fn near_ways_of_cuboids(
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
+    precision: &Precision,
+    within: f64,
+) -> Option<Vec<Way>> {
+    let cuboids = [cuboid(r)?, cuboid(s)?];
+    let lines = Lines { sets: [r, s] };
+    let axes = CuboidAxes::new([r, s], cuboids);
+    let error = GAP_ERROR * precision.size;
+    // Each with a lower bound of its depth.
+    let mut open: SmallVec<[(f64, Line); 15]> = SmallVec::new();
+    let gaps = [axes.gaps_at_a(), axes.gaps_at_b()];
+    for (side, axis) in [0, 1]
+        .into_iter()
+        .flat_map(|side| (0..3).map(move |i| (side, i)))
+    {
+        let line = lines.across_face(side, lowest_face(cuboids[side], axis));
+        open.push((-gaps[side][axis] - error, line));
+    }
+    let edges = [0, 1].map(|side: usize| [0, 1, 2].map(|axis| cuboids[side].edge_along(axis)));
+    for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+        let EdgeGap { gap, length } = axes.edge_gap(i, j);
+        if let Some(line) = lines.across_edges([edges[0][i], edges[1][j]]) {
+            open.push(((-gap - error) / length, line));
+        }
+    }
+    open.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let mut least = f64::INFINITY;
+    let mut found = Vec::new();
+    for (lower, (number, normal)) in open {
+        if lower > least + within {
+            break;
+        }
+        let ways = ways_along([r, s], number, &normal);
+        least = ways.iter().fold(least, |least, way| way.depth.min(least));
+        found.extend(ways);
+    }
+    Some(found)
+}
