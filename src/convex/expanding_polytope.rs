@@ -111,7 +111,14 @@ struct ExpandingPolytope<'a> {
     corners: Vec<Corner>,
     facets: Vec<Facet>,
     queue: BinaryHeap<Queued>,
+    /// What bordered on the triangles that gave way last, in its order around them.
+    rim: Vec<Side>,
+    /// Sides to look at, the last one first.
+    open: Vec<Side>,
 }
+
+/// Most searches need no more room than for so many triangles.
+const ROOM: usize = 64;
 
 /// The corner or side after the given one.
 fn next(i: usize) -> usize {
@@ -125,9 +132,11 @@ impl<'a> ExpandingPolytope<'a> {
             sets,
             rounding,
             middle: Vec3::zeros(),
-            corners: Vec::new(),
-            facets: Vec::new(),
-            queue: BinaryHeap::new(),
+            corners: Vec::with_capacity(ROOM / 2),
+            facets: Vec::with_capacity(ROOM),
+            queue: BinaryHeap::with_capacity(ROOM),
+            rim: Vec::with_capacity(ROOM / 2),
+            open: Vec::with_capacity(ROOM / 2),
         };
         polytope.find_tetrahedron()?;
         let points = polytope.corners.iter().map(|corner| corner.point);
@@ -175,10 +184,10 @@ impl<'a> ExpandingPolytope<'a> {
             return None;
         }
         let [start, end] = ends;
-        self.corners = match up >= down {
-            true => vec![start, end, third, above],
-            false => vec![start, third, end, below],
-        };
+        self.corners.extend(match up >= down {
+            true => [start, end, third, above],
+            false => [start, third, end, below],
+        });
         Some(())
     }
 
@@ -269,16 +278,17 @@ impl<'a> ExpandingPolytope<'a> {
 
     /// Puts a new corner in the place of a triangle and of all that are before it. `None` where their rim does not go once round.
     fn take_in(&mut self, facet: u32, corner: Corner) -> Option<()> {
-        let rim = self.give_way(facet, &corner.point);
+        self.give_way(facet, &corner.point);
         let apex = self.corners.len() as u32;
         self.corners.push(corner);
         let first = self.facets.len() as u32;
-        let count = rim.len();
-        for (i, &side) in rim.iter().enumerate() {
+        let count = self.rim.len();
+        for i in 0..count {
+            let side = self.rim[i];
             let [before, behind] = [(i + count - 1) % count, (i + 1) % count];
             // What is outside the rim goes along it the other way.
             let [to, from] = self.ends(side);
-            if self.ends(rim[behind])[1] != to {
+            if self.ends(self.rim[behind])[1] != to {
                 return None;
             }
             let spoke = |k: usize, number: usize| Side {
@@ -297,15 +307,13 @@ impl<'a> ExpandingPolytope<'a> {
         [corners[number], corners[next(number)]]
     }
 
-    /// Takes a triangle away, with all that are before a point and hang together with it. What is given are the sides that bordered on
-    /// them, in their order around.
-    fn give_way(&mut self, facet: u32, point: &Vec3) -> Vec<Side> {
+    /// Takes a triangle away, with all that are before a point and hang together with it, and leaves their rim.
+    fn give_way(&mut self, facet: u32, point: &Vec3) {
         let gone = &mut self.facets[facet as usize];
         gone.is_gone = true;
-        let mut rim = Vec::new();
-        // Sides to look at, the last one first.
-        let mut open: Vec<Side> = gone.beside.into_iter().rev().collect();
-        while let Some(side) = open.pop() {
+        self.rim.clear();
+        self.open.extend(gone.beside.into_iter().rev());
+        while let Some(side) = self.open.pop() {
             let facet = &mut self.facets[side.facet as usize];
             if facet.is_gone {
                 continue;
@@ -313,13 +321,12 @@ impl<'a> ExpandingPolytope<'a> {
             if facet.normal.dot(point) > facet.offset {
                 facet.is_gone = true;
                 let following = next(side.number);
-                open.push(facet.beside[next(following)]);
-                open.push(facet.beside[following]);
+                self.open.push(facet.beside[next(following)]);
+                self.open.push(facet.beside[following]);
             } else {
-                rim.push(side);
+                self.rim.push(side);
             }
         }
-        rim
     }
 }
 

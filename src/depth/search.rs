@@ -146,13 +146,8 @@ impl<'a, 's> DepthSearch<'a, 's> {
             if self.scratch.meter().is_exceeded() {
                 break;
             }
-            let [a, b] = [self.pairing.a, self.pairing.b].map(|body| body.packed().primitives());
-            let primitives =
-                [a.entry(places[0] as usize), b.entry(places[1] as usize)].map(|e| e.primitive);
-            let Ok(found) = self
-                .pairing
-                .world_penetration(primitives, self.scratch.meter_mut())
-            else {
+            let meter = self.scratch.meter_mut();
+            let Ok(found) = self.pairing.world_penetration(places, meter) else {
                 continue;
             };
             let depth = found.depth - self.error;

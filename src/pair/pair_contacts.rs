@@ -107,15 +107,15 @@ impl Pairing<'_> {
         }
     }
 
-    /// The penetration of a primitive pair that meets, in the world. Fails for smooth primitives. The result is meaningless if
-    /// the meter's limit is exceeded.
+    /// The penetration of the primitives at two places, which meet, in the world. Fails for smooth primitives. The result is
+    /// meaningless if the meter's limit is exceeded.
     pub fn world_penetration(
         &self,
-        primitives: [u32; 2],
+        places: [u32; 2],
         meter: &mut WorkMeter,
     ) -> Result<Penetration> {
         let mut buffer = PlacedBuffer::default();
-        let [a, b] = self.place(primitives, [None; 2], &mut buffer);
+        let [a, b] = self.placed(places, &mut buffer);
         let found = penetration(&a, &b, &self.precision, meter)?;
         Ok(Penetration {
             depth: found.depth,

@@ -224,10 +224,7 @@ impl Pairing<'_> {
             None => return false,
             Some(distance) if distance > 0.0 => distance + self.precision.error,
             Some(_) => {
-                let [a, b] = [self.a, self.b].map(|body| body.packed().primitives());
-                let entries = [a.entry(places[0] as usize), b.entry(places[1] as usize)];
-                let primitives = entries.map(|entry| entry.primitive);
-                let depth = self.world_penetration(primitives, scratch.meter_mut());
+                let depth = self.world_penetration(places, scratch.meter_mut());
                 // Of smooth primitives no depth is known.
                 self.precision.error - depth.map_or(0.0, |found| found.depth)
             }

@@ -53,7 +53,7 @@ impl Visitor for Deepest<'_> {
         if !meets(pair) || is_irrelevant {
             return ControlFlow::Continue(());
         }
-        match self.pairing.world_penetration(primitives, meter) {
+        match self.pairing.world_penetration(pair.places, meter) {
             Ok(penetration) => {
                 let parties = self.target.parties();
                 self.list.offer(PrimitivePenetration {
