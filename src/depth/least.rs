@@ -8,7 +8,7 @@
 use smallvec::{SmallVec, smallvec};
 
 use crate::convex::HalfSpace;
-use crate::pose::{Mat3, Vec3};
+use crate::pose::Vec3;
 use crate::tolerance::EPSILON;
 
 /// The shortest translation found.
@@ -89,13 +89,19 @@ fn exchanged(
 ) -> Option<Corner> {
     let subsets = 0..1usize << basis.len();
     let corners = subsets.filter_map(|mask| {
-        let kept = (0..basis.len()).filter(|i| mask >> i & 1 == 1);
-        let mut tried: Basis = kept.map(|i| basis[i]).collect();
+        let mut tried: Basis = smallvec![];
+        tried.extend(kept(basis, mask));
         tried.push(worst);
         (tried.len() <= 3).then_some(())?;
         corner(spaces, offset, tried)
     });
     corners.max_by(|a, b| a.bound.total_cmp(&b.bound))
+}
+
+/// Those of a basis whose bits are set.
+fn kept(basis: &Basis, mask: usize) -> impl Iterator<Item = usize> {
+    let numbered = basis.iter().enumerate();
+    numbered.filter_map(move |(i, &space)| (mask >> i & 1 == 1).then_some(space))
 }
 
 /// The shortest translation on the planes of a basis, if it proves a bound.
@@ -129,30 +135,26 @@ fn corner(spaces: &[HalfSpace], offset: &impl Fn(usize) -> f64, basis: Basis) ->
 
 /// The multipliers whose sum of normals lies on all planes; `None` where the normals are not independent.
 fn solved(normals: &[Vec3], offsets: &[f64]) -> Option<SmallVec<[f64; 3]>> {
-    let product = |i: usize, j: usize| normals[i].dot(&normals[j]);
-    match normals.len() {
-        1 => Some(smallvec![offsets[0] / product(0, 0)]),
-        2 => {
-            let (a, b, d) = (product(0, 0), product(0, 1), product(1, 1));
-            let determinant = normals[0].cross(&normals[1]).norm_squared();
+    match (normals, offsets) {
+        ([a], [x]) => Some(smallvec![x / a.norm_squared()]),
+        ([a, b], [x, y]) => {
+            let determinant = a.cross(b).norm_squared();
             (determinant > FLAT * FLAT).then_some(())?;
-            let [x, y] = [offsets[0], offsets[1]];
+            let (aa, ab, bb) = (a.norm_squared(), a.dot(b), b.norm_squared());
             Some(smallvec![
-                (d * x - b * y) / determinant,
-                (a * y - b * x) / determinant
+                (bb * x - ab * y) / determinant,
+                (aa * y - ab * x) / determinant
             ])
         }
-        _ => {
-            let columns = Mat3::from_columns(normals);
-            (columns.determinant().abs() > FLAT).then_some(())?;
-            // The point on the three planes, and then its multipliers.
-            let point = columns
-                .transpose()
-                .lu()
-                .solve(&Vec3::from_row_slice(offsets))?;
-            let multipliers = columns.lu().solve(&point)?;
-            Some(multipliers.iter().copied().collect())
+        ([a, b, c], [x, y, z]) => {
+            // The products of two with the third are the determinant, those with one of the two are 0.
+            let across = [b.cross(c), c.cross(a), a.cross(b)];
+            let determinant = a.dot(&across[0]);
+            (determinant.abs() > FLAT).then_some(())?;
+            let point = (across[0] * *x + across[1] * *y + across[2] * *z) / determinant;
+            Some(across.iter().map(|n| n.dot(&point) / determinant).collect())
         }
+        _ => None,
     }
 }
 
@@ -167,10 +169,7 @@ fn contradiction(
 ) -> f64 {
     let mut best: f64 = 0.0;
     for mask in 1..1usize << basis.len() {
-        let kept: Basis = (0..basis.len())
-            .filter(|i| mask >> i & 1 == 1)
-            .map(|i| basis[i])
-            .collect();
+        let kept: Basis = kept(basis, mask).collect();
         let normals: SmallVec<[Vec3; 3]> = kept.iter().map(|&i| spaces[i].normal).collect();
         let opposite = -spaces[worst].normal;
         let products: SmallVec<[f64; 3]> = normals.iter().map(|n| n.dot(&opposite)).collect();
