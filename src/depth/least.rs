@@ -5,7 +5,7 @@
 //! The best bound belongs to at most three of the half-spaces, the basis, which is exchanged against the half-space that
 //! its point violates most, until none is violated.
 
-use smallvec::{SmallVec, smallvec};
+use smallvec::SmallVec;
 
 use crate::convex::HalfSpace;
 use crate::pose::Vec3;
@@ -23,12 +23,47 @@ pub struct Least {
     pub is_inside: bool,
 }
 
-type Basis = SmallVec<[usize; 4]>;
+/// At most three half-spaces, by number.
+#[derive(Clone, Copy, Default)]
+struct Basis {
+    spaces: [usize; 3],
+    count: usize,
+}
+
+impl Basis {
+    fn as_slice(&self) -> &[usize] {
+        &self.spaces[..self.count]
+    }
+
+    /// Those whose bits are set in a mask.
+    fn part(&self, mask: usize) -> Self {
+        let mut part = Self::default();
+        for (i, &space) in self.as_slice().iter().enumerate() {
+            if mask >> i & 1 == 1 {
+                part.spaces[part.count] = space;
+                part.count += 1;
+            }
+        }
+        part
+    }
+
+    /// With one more, unless there are three.
+    fn with(mut self, space: usize) -> Option<Self> {
+        *self.spaces.get_mut(self.count)? = space;
+        self.count += 1;
+        Some(self)
+    }
+
+    /// All parts, as masks.
+    fn masks(&self) -> std::ops::Range<usize> {
+        0..1 << self.count
+    }
+}
 
 /// A basis with its point.
 struct Corner {
     basis: Basis,
-    multipliers: SmallVec<[f64; 3]>,
+    multipliers: [f64; 3],
     bound: f64,
     point: Vec3,
 }
@@ -44,8 +79,8 @@ const FLAT: f64 = 1e-13;
 pub fn least(spaces: &[HalfSpace], inset: f64, rounding: f64) -> Least {
     let offset = |i: usize| spaces[i].offset + inset;
     let mut best = Corner {
-        basis: smallvec![],
-        multipliers: smallvec![],
+        basis: Basis::default(),
+        multipliers: [0.0; 3],
         bound: 0.0,
         point: Vec3::zeros(),
     };
@@ -74,7 +109,7 @@ impl Corner {
         Least {
             bound: self.bound,
             point: self.point,
-            multipliers: self.basis.iter().copied().zip(self.multipliers).collect(),
+            multipliers: (self.basis.as_slice().iter().copied().zip(self.multipliers)).collect(),
             is_inside,
         }
     }
@@ -87,41 +122,35 @@ fn exchanged(
     basis: &Basis,
     worst: usize,
 ) -> Option<Corner> {
-    let subsets = 0..1usize << basis.len();
-    let corners = subsets.filter_map(|mask| {
-        let mut tried: Basis = smallvec![];
-        tried.extend(kept(basis, mask));
-        tried.push(worst);
-        (tried.len() <= 3).then_some(())?;
-        corner(spaces, offset, tried)
-    });
+    let parts = basis
+        .masks()
+        .filter_map(|mask| basis.part(mask).with(worst));
+    let corners = parts.filter_map(|tried| corner(spaces, offset, tried));
     corners.max_by(|a, b| a.bound.total_cmp(&b.bound))
-}
-
-/// Those of a basis whose bits are set.
-fn kept(basis: &Basis, mask: usize) -> impl Iterator<Item = usize> {
-    let numbered = basis.iter().enumerate();
-    numbered.filter_map(move |(i, &space)| (mask >> i & 1 == 1).then_some(space))
 }
 
 /// The shortest translation on the planes of a basis, if it proves a bound.
 fn corner(spaces: &[HalfSpace], offset: &impl Fn(usize) -> f64, basis: Basis) -> Option<Corner> {
-    let normals: SmallVec<[Vec3; 3]> = basis.iter().map(|&i| spaces[i].normal).collect();
-    let offsets: SmallVec<[f64; 3]> = basis.iter().map(|&i| offset(i)).collect();
-    let multipliers = solved(&normals, &offsets)?;
+    let count = basis.count;
+    let mut normals = [Vec3::zeros(); 3];
+    let mut offsets = [0.0; 3];
+    for (k, &i) in basis.as_slice().iter().enumerate() {
+        (normals[k], offsets[k]) = (spaces[i].normal, offset(i));
+    }
+    let multipliers = solved(&normals[..count], &offsets[..count])?;
     let largest = multipliers.iter().fold(0.0, |a: f64, m| a.max(m.abs()));
     if multipliers.iter().any(|m| *m < -FLAT * largest) {
         return None;
     }
     let largest_offset = offsets.iter().fold(0.0, |a: f64, o| a.max(o.abs()));
-    let (mut sum, mut along) = (Vec3::zeros(), 0.0);
-    for ((normal, offset), multiplier) in normals.iter().zip(&offsets).zip(&multipliers) {
-        let multiplier = multiplier.max(0.0);
-        sum += normal * multiplier;
-        along += offset * multiplier;
+    let (mut sum, mut along, mut weight) = (Vec3::zeros(), 0.0, 0.0);
+    for k in 0..count {
+        let multiplier = multipliers[k].max(0.0);
+        sum += normals[k] * multiplier;
+        along += offsets[k] * multiplier;
+        weight += multiplier;
     }
     // Both sums carry the rounding of their terms.
-    let weight: f64 = multipliers.iter().map(|m| m.max(0.0)).sum();
     let length = sum.norm() + 8.0 * EPSILON * weight;
     let bound = (along - 8.0 * EPSILON * weight * largest_offset) / length;
     (along > 0.0 && length > 0.0).then_some(())?;
@@ -133,18 +162,16 @@ fn corner(spaces: &[HalfSpace], offset: &impl Fn(usize) -> f64, basis: Basis) ->
     })
 }
 
-/// The multipliers whose sum of normals lies on all planes; `None` where the normals are not independent.
-fn solved(normals: &[Vec3], offsets: &[f64]) -> Option<SmallVec<[f64; 3]>> {
+/// The multipliers whose sum of normals lies on all planes, one for each and then zeros; `None` where the normals are not independent.
+fn solved(normals: &[Vec3], offsets: &[f64]) -> Option<[f64; 3]> {
     match (normals, offsets) {
-        ([a], [x]) => Some(smallvec![x / a.norm_squared()]),
+        ([a], [x]) => Some([x / a.norm_squared(), 0.0, 0.0]),
         ([a, b], [x, y]) => {
             let determinant = a.cross(b).norm_squared();
             (determinant > FLAT * FLAT).then_some(())?;
             let (aa, ab, bb) = (a.norm_squared(), a.dot(b), b.norm_squared());
-            Some(smallvec![
-                (bb * x - ab * y) / determinant,
-                (aa * y - ab * x) / determinant
-            ])
+            let [of_a, of_b] = [bb * x - ab * y, aa * y - ab * x].map(|m| m / determinant);
+            Some([of_a, of_b, 0.0])
         }
         ([a, b, c], [x, y, z]) => {
             // The products of two with the third are the determinant, those with one of the two are 0.
@@ -152,7 +179,7 @@ fn solved(normals: &[Vec3], offsets: &[f64]) -> Option<SmallVec<[f64; 3]>> {
             let determinant = a.dot(&across[0]);
             (determinant.abs() > FLAT).then_some(())?;
             let point = (across[0] * *x + across[1] * *y + across[2] * *z) / determinant;
-            Some(across.iter().map(|n| n.dot(&point) / determinant).collect())
+            Some(across.map(|normal| normal.dot(&point) / determinant))
         }
         _ => None,
     }
@@ -168,19 +195,22 @@ fn contradiction(
     rounding: f64,
 ) -> f64 {
     let mut best: f64 = 0.0;
-    for mask in 1..1usize << basis.len() {
-        let kept: Basis = kept(basis, mask).collect();
-        let normals: SmallVec<[Vec3; 3]> = kept.iter().map(|&i| spaces[i].normal).collect();
+    for part in basis.masks().skip(1).map(|mask| basis.part(mask)) {
         let opposite = -spaces[worst].normal;
-        let products: SmallVec<[f64; 3]> = normals.iter().map(|n| n.dot(&opposite)).collect();
-        let Some(multipliers) = solved(&normals, &products) else {
+        let mut normals = [Vec3::zeros(); 3];
+        let mut products = [0.0; 3];
+        for (k, &i) in part.as_slice().iter().enumerate() {
+            normals[k] = spaces[i].normal;
+            products[k] = normals[k].dot(&opposite);
+        }
+        let Some(multipliers) = solved(&normals[..part.count], &products[..part.count]) else {
             continue;
         };
         if multipliers.iter().any(|m| *m < 0.0) {
             continue;
         }
         let (mut sum, mut along) = (spaces[worst].normal, offset(worst));
-        for (&i, multiplier) in kept.iter().zip(&multipliers) {
+        for (&i, multiplier) in part.as_slice().iter().zip(&multipliers) {
             sum += spaces[i].normal * *multiplier;
             along += offset(i) * multiplier;
         }
