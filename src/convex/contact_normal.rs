@@ -7,7 +7,7 @@ use super::closest::{Closest, Segment};
 use super::contact::mode_of;
 use super::placed::{PlacedPrimitive, Precision};
 use super::polytope_distance::{feature_normal, gap_of_primitives};
-use super::polytope_penetration::polytope_penetration;
+use super::ways_out::shortest_way;
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind};
 use crate::tolerance;
@@ -163,7 +163,7 @@ impl ContactPair<'_> {
             return None;
         }
         let meter = &mut WorkMeter::default();
-        let found = polytope_penetration(self.r, self.s, self.precision, meter);
+        let found = shortest_way(self.r, self.s, self.precision, meter);
         (found.depth <= most).then_some(found.direction)
     }
 

@@ -15,6 +15,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
+use super::facet_normals::unit_across;
 use super::placed::PlacedPrimitive;
 use crate::gjk::Support;
 use crate::pose::Vec3;
@@ -212,7 +213,7 @@ impl<'a> ExpandingPolytope<'a> {
             let room = 4.0 * self.rounding;
             normal.dot(&self.middle) < offset(normal) - room
         };
-        let across = (b - a).cross(&(c - a)).try_normalize(0.0);
+        let across = unit_across(&(b - a), &(c - a));
         // Three corners on a line lie in the plane of what is beside it.
         let normal = across.filter(is_outward).or_else(|| {
             let neighbour = self.facets.get(beside[0].facet as usize)?;
@@ -257,7 +258,10 @@ impl<'a> ExpandingPolytope<'a> {
                 found.push((facet, height));
                 continue;
             }
-            if self.corners.len() >= max_corners {
+            // A corner that the triangle has already takes it no farther.
+            let is_own = |&own: &u32| self.corners[own as usize].of == corner.of;
+            let is_stuck = self.facets[facet as usize].corners.iter().any(is_own);
+            if is_stuck || self.corners.len() >= max_corners {
                 return None;
             }
             self.take_in(facet, corner)?;

@@ -8,6 +8,19 @@ use crate::pose::Vec3;
 use crate::tolerance;
 use crate::work_meter::WorkMeter;
 
+/// The unit vector across two others. Where these are nearly parallel, rounding may turn it about them, but not towards them, so that
+/// what lies along them stays level. `None` for parallel ones.
+pub fn unit_across(a: &Vec3, b: &Vec3) -> Option<Vec3> {
+    let [square_a, square_b] = [a, b].map(|x| x.norm_squared());
+    let (along, square) = if square_a >= square_b {
+        (a, square_a)
+    } else {
+        (b, square_b)
+    };
+    let across = a.cross(b).try_normalize(0.0)?;
+    (across - along * (across.dot(along) / square)).try_normalize(0.0)
+}
+
 /// Visits the normals of the facets of the Minkowski difference, of any length and of either sign, each with its number.
 pub fn visit_normals(
     r: &PlacedPrimitive,
@@ -55,8 +68,7 @@ fn visit_edges(
         GaussArcs::new(s, false, slack),
     );
     arcs_r.visit_crossing(&arcs_s, meter, |edge_r, edge_s| {
-        let cross = arcs_r.along(edge_r).cross(arcs_s.along(edge_s));
-        let Some(normal) = cross.try_normalize(0.0) else {
+        let Some(normal) = unit_across(arcs_r.along(edge_r), arcs_s.along(edge_s)) else {
             return;
         };
         let [low_r, high_r] = arcs_r.extent_at(edge_r, &normal);

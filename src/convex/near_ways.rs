@@ -7,6 +7,7 @@ use smallvec::SmallVec;
 
 use super::cuboid_axes::{CuboidAxes, EdgeGap, GAP_ERROR};
 use super::expanding_polytope::nearest_facets;
+use super::facet_normals::unit_across;
 use super::placed::{PlacedPrimitive, Precision};
 use super::polytope_distance::cuboid;
 use super::way::{NO_NUMBER, Way, ways_along};
@@ -78,7 +79,7 @@ impl Lines<'_> {
         let [r, s] = self.sets.map(|placed| placed.shape);
         let before = (r.faces.len() + s.faces.len()) as u64;
         let pair = u64::from(edges[0]) * s.edges.len() as u64 + u64::from(edges[1]);
-        let normal = along_r.cross(&along_s).try_normalize(0.0)?;
+        let normal = unit_across(&along_r, &along_s)?;
         Some((before + pair, normal))
     }
 

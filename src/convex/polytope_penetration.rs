@@ -23,7 +23,7 @@ pub struct Penetration {
     pub points: [Vec3; 2],
 }
 
-/// The penetration of the hulls of two primitives' vertices that meet.
+/// The penetration of the hulls of two primitives' vertices that meet. Meaningless if the meter's limit is exceeded.
 pub fn polytope_penetration(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
@@ -34,10 +34,14 @@ pub fn polytope_penetration(
         depth, direction, ..
     } = shortest_way(r, s, precision, meter);
     let depth = depth.max(0.0);
+    let points = match meter.is_exceeded() {
+        true => [Vec3::zeros(); 2],
+        false => coinciding_points(r, s, depth, &direction, precision),
+    };
     Penetration {
         depth,
         direction,
-        points: coinciding_points(r, s, depth, &direction, precision),
+        points,
     }
 }
 

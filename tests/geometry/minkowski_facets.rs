@@ -2,7 +2,7 @@
 //! the cross product of each two edges, whether the two support along it or not.
 
 use cstk::pose::{Mat3, Pose, Vec3, rotation_about};
-use cstk::query::QueryContext;
+use cstk::query::{DepthOptions, QueryContext};
 
 use helpers::random::Random;
 use helpers::shapes::{Shape, box_corners, hull, sphere_points};
@@ -214,5 +214,57 @@ fn few_facets_are_looked_at() {
         query.set_limit(Some(2 * count as u64));
         let list = query.pair_penetration(sides[0], sides[1], 1).unwrap();
         assert!(list.penetrations[0].penetration.depth > 1.0);
+    }
+}
+
+/// Of bodies that hardly touch, with edges that are parallel to within 1e-10, the facet of the shortest way out is as narrow. The depth was
+/// computed in numbers of 113 bits.
+#[test]
+fn a_facet_between_nearly_parallel_edges() {
+    let points = |corners: &[[f64; 3]]| -> Vec<Vec3> {
+        corners.iter().map(|&corner| Vec3::from(corner)).collect()
+    };
+    let a = hull(&points(&[
+        [0.5, 0.0, 0.5],
+        [-0.5, 0.25, -0.25],
+        [0.5, 0.5, -0.25],
+        [-0.25, -0.5, -0.25],
+        [-0.25, -0.25, 0.25],
+        [0.0, 0.5, 0.25],
+    ]));
+    let b = hull(&points(&[
+        [0.25, -0.25, 0.0],
+        [0.25, -0.5, 0.5],
+        [-0.25, -0.25, 0.0],
+        [0.5, 0.0, 0.25],
+        [0.5, -0.5, 0.5],
+    ]));
+    let here = Pose::identity();
+    let pose = Pose {
+        rotation: Mat3::new(
+            1.0,
+            -1.7404704548607607e-10,
+            -1.0866174359701308e-10,
+            1.740470454574241e-10,
+            1.0,
+            -1.926422962329494e-10,
+            1.0866174364290583e-10,
+            1.9264229620706313e-10,
+            1.0,
+        ),
+        translation: Vec3::new(0.0, 0.0, 0.25),
+    };
+    let want = 3.3545825511771752e-12;
+    let sides = [(&*a.body, &here), (&*b.body, &pose)];
+    for [r, s] in [sides, [sides[1], sides[0]]] {
+        let mut context = QueryContext::new();
+        let list = context.pair_penetration(r, s, 1).unwrap();
+        let found = list.penetrations[0].penetration.depth;
+        assert!((found - want).abs() <= 1e-14, "{found} for {want}");
+        let bounds = context.pair_depth(r, s, &DepthOptions::default()).unwrap();
+        assert!(
+            bounds.lower <= want && want <= bounds.upper,
+            "{bounds:?} for {want}"
+        );
     }
 }
