@@ -48,6 +48,18 @@ fn solid_box(half: f64) -> Arc<Body> {
     Arc::new(built(&builder, &Default::default()))
 }
 
+/// An upright prism of height 1.
+fn prism(sides: u32) -> Arc<Body> {
+    let corner = |i: u32| {
+        let (y, x) = (std::f64::consts::TAU * f64::from(i / 2) / f64::from(sides)).sin_cos();
+        Vec3::new(x, y, f64::from(i % 2) - 0.5)
+    };
+    let corners: Vec<Vec3> = (0..2 * sides).map(corner).collect();
+    let mut builder = BodyBuilder::new(3).unwrap();
+    builder.add_polyhedron(&corners, 0).unwrap();
+    Arc::new(built(&builder, &Default::default()))
+}
+
 /// An arm of links that turn about axes in turn, each with a body.
 fn arm(body: &Arc<Body>) -> Arc<Space> {
     let mut links: Vec<_> = (0..7usize)
@@ -161,4 +173,13 @@ fn warm_queries_allocate_nothing() {
         });
         assert_eq!(asked, 0);
     }
+    // Hulls that touch are decided by their features.
+    let prism = prism(40);
+    let gaps: Vec<Vec<f64>> = (-20..20).map(|i| vec![f64::from(i) * 1e-15]).collect();
+    let asked = allocations(&gaps, context, |context, q| {
+        let stacked = Pose::from_translation(Vec3::z() * (1.0 + q[0]));
+        let sides = ((&*prism, &Pose::identity()), (&*prism, &stacked));
+        assert!(context.pair_within(sides.0, sides.1, 0.0).unwrap());
+    });
+    assert_eq!(asked, 0);
 }

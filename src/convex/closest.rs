@@ -111,6 +111,23 @@ impl FeatureSet {
         self.edges.extend(0..placed.shape.edges.len() as u32);
     }
 
+    /// The features with a vertex that is at least as far along `direction` as `height`.
+    pub fn set_reaching(&mut self, placed: &PlacedPrimitive, direction: &Vec3, height: f64) {
+        self.clear();
+        self.heights.clear();
+        let heights = placed.vertices().iter().map(|v| direction.dot(v));
+        self.heights.extend(heights);
+        let reaches = |&i: &u32| self.heights[i as usize] >= height;
+        let vertices = (0..placed.vertex_count() as u32).filter(reaches);
+        self.vertices.extend(vertices);
+        let edges = placed.shape.edges.iter().zip(0..);
+        let edges = edges.filter(|(edge, _)| edge.iter().any(reaches));
+        self.edges.extend(edges.map(|(_, i)| i));
+        let faces = placed.shape.faces.iter().zip(0..);
+        let faces = faces.filter(|(face, _)| face.vertices.iter().any(reaches));
+        self.faces.extend(faces.map(|(_, i)| i));
+    }
+
     /// The features whose vertices all lie within `tolerance` of the farthest vertex along `direction`.
     pub fn set_supporting(&mut self, placed: &PlacedPrimitive, direction: &Vec3, tolerance: f64) {
         self.clear();

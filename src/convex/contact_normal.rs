@@ -5,8 +5,8 @@ use smallvec::SmallVec;
 
 use super::closest::{Closest, Segment};
 use super::contact::mode_of;
-use super::placed::{PlacedPrimitive, Precision};
-use super::polytope_distance::{feature_normal, gap_of_primitives};
+use super::placed::{PlacedPrimitive, Precision, gap_of_primitives};
+use super::polytope_distance::feature_normal;
 use super::ways_out::shortest_way;
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind};

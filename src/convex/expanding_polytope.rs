@@ -32,20 +32,8 @@ pub struct NearFacet {
     pub corners: [[u32; 2]; 3],
 }
 
-/// The facets of the difference of two polytopes whose offset exceeds the least by no more than `within`. `None` for flat differences and
-/// where the search gives up. Each corner of the polytope is charged to the meter; what is found is incomplete if its limit is
-/// exceeded.
-pub fn nearest_facets(
-    r: &PlacedPrimitive,
-    s: &PlacedPrimitive,
-    size: f64,
-    within: f64,
-    meter: &mut WorkMeter,
-) -> Option<Vec<NearFacet>> {
-    let rounding = SUPPORT_ERROR * size;
-    let mut polytope = ExpandingPolytope::around_middle([r, s], rounding)?;
-    polytope.expand(within, meter)
-}
+/// The two sets whose difference it is.
+type Sets<'a> = [&'a PlacedPrimitive<'a>; 2];
 
 /// Polytopes of more corners are given up, times the vertices of both sets: nearly all of the boundary is as near.
 const MAX_CORNERS: usize = 4;
@@ -103,8 +91,9 @@ impl Ord for Queued {
     }
 }
 
-struct ExpandingPolytope<'a> {
-    sets: [&'a PlacedPrimitive<'a>; 2],
+/// The polytope, and memory of a search, reused from pair to pair.
+#[derive(Default)]
+pub struct ExpandingPolytope {
     /// A point of the difference and the product of a direction with it are rounded by no more.
     rounding: f64,
     /// Inside for good.
@@ -116,32 +105,50 @@ struct ExpandingPolytope<'a> {
     rim: Vec<Side>,
     /// Sides to look at, the last one first.
     open: Vec<Side>,
+    /// The triangles on the boundary, each with the height of the difference along its normal.
+    reached: Vec<(u32, f64)>,
+    found: Vec<NearFacet>,
 }
-
-/// Most searches need no more room than for so many triangles.
-const ROOM: usize = 64;
 
 /// The corner or side after the given one.
 fn next(i: usize) -> usize {
     (i + 1) % 3
 }
 
-impl<'a> ExpandingPolytope<'a> {
-    /// A tetrahedron; `None` if the difference is flat.
-    fn around_middle(sets: [&'a PlacedPrimitive<'a>; 2], rounding: f64) -> Option<Self> {
-        let mut polytope = Self {
-            sets,
-            rounding,
-            middle: Vec3::zeros(),
-            corners: Vec::with_capacity(ROOM / 2),
-            facets: Vec::with_capacity(ROOM),
-            queue: BinaryHeap::with_capacity(ROOM),
-            rim: Vec::with_capacity(ROOM / 2),
-            open: Vec::with_capacity(ROOM / 2),
-        };
-        polytope.find_tetrahedron()?;
-        let points = polytope.corners.iter().map(|corner| corner.point);
-        polytope.middle = points.sum::<Vec3>() / 4.0;
+/// The point of the difference that is farthest along a direction.
+fn extreme([r, s]: Sets, direction: &Vec3) -> Corner {
+    let [of_r, of_s] = [r.extreme(&-direction), s.extreme(direction)];
+    Corner {
+        point: of_s.point - of_r.point,
+        of: [of_r.name, of_s.name],
+    }
+}
+
+impl ExpandingPolytope {
+    /// The facets of the difference of two polytopes whose offset exceeds the least by no more than `within`. `None` for flat differences
+    /// and where the search gives up. Each corner of the polytope is charged to the meter; what is found is incomplete if its limit is
+    /// exceeded.
+    pub fn nearest_facets(
+        &mut self,
+        sets: Sets,
+        size: f64,
+        within: f64,
+        meter: &mut WorkMeter,
+    ) -> Option<&[NearFacet]> {
+        self.rounding = SUPPORT_ERROR * size;
+        self.begin(sets)?;
+        self.expand(sets, within, meter)?;
+        Some(&self.found)
+    }
+
+    /// Begins with a tetrahedron; `None` if the difference is flat.
+    fn begin(&mut self, sets: Sets) -> Option<()> {
+        self.corners.clear();
+        self.facets.clear();
+        self.queue.clear();
+        self.find_tetrahedron(sets)?;
+        let points = self.corners.iter().map(|corner| corner.point);
+        self.middle = points.sum::<Vec3>() / 4.0;
         let tetrahedron = [
             ([0, 2, 1], [(3, 0), (2, 0), (1, 0)]),
             ([0, 1, 3], [(0, 2), (2, 2), (3, 1)]),
@@ -150,18 +157,18 @@ impl<'a> ExpandingPolytope<'a> {
         ];
         for (corners, beside) in tetrahedron {
             let side = |(facet, number)| Side { facet, number };
-            polytope.add(corners, beside.map(side))?;
+            self.add(corners, beside.map(side))?;
         }
-        Some(polytope)
+        Some(())
     }
 
     /// Four corners that span a tetrahedron, the last of them on the side where the first three go round counterclockwise: the first
     /// in the direction in which the origin probably is nearest to the boundary.
-    fn find_tetrahedron(&mut self) -> Option<()> {
-        let [r, s] = self.sets;
+    fn find_tetrahedron(&mut self, sets: Sets) -> Option<()> {
+        let [r, s] = sets;
         let outwards = r.middle() - s.middle();
         let first = outwards.try_normalize(0.0).unwrap_or_else(Vec3::x);
-        let ends = [first, -first].map(|direction| self.extreme(&direction));
+        let ends = [first, -first].map(|direction| extreme(sets, &direction));
         let along = (ends[1].point - ends[0].point).try_normalize(FLAT * self.rounding)?;
         let from = ends[0].point;
         let axis = Vec3::ith(along.iamin(), 1.0);
@@ -170,7 +177,7 @@ impl<'a> ExpandingPolytope<'a> {
             let arm = corner.point - from;
             arm - along * along.dot(&arm)
         };
-        let others = [across, -across].map(|direction| self.extreme(&direction));
+        let others = [across, -across].map(|direction| extreme(sets, &direction));
         let [one, other] = others;
         let third = if aside(&one).norm() >= aside(&other).norm() {
             one
@@ -178,7 +185,7 @@ impl<'a> ExpandingPolytope<'a> {
             other
         };
         let upright = along.cross(&aside(&third).try_normalize(FLAT * self.rounding)?);
-        let [above, below] = [upright, -upright].map(|direction| self.extreme(&direction));
+        let [above, below] = [upright, -upright].map(|direction| extreme(sets, &direction));
         let height = |corner: &Corner| upright.dot(&(corner.point - from));
         let [up, down] = [height(&above), -height(&below)];
         if up.max(down) <= FLAT * self.rounding {
@@ -190,16 +197,6 @@ impl<'a> ExpandingPolytope<'a> {
             false => [start, third, end, below],
         });
         Some(())
-    }
-
-    /// The point of the difference that is farthest along a direction.
-    fn extreme(&self, direction: &Vec3) -> Corner {
-        let [r, s] = self.sets;
-        let [of_r, of_s] = [r.extreme(&-direction), s.extreme(direction)];
-        Corner {
-            point: of_s.point - of_r.point,
-            of: [of_r.name, of_s.name],
-        }
     }
 
     /// Adds a triangle; `None` if no plane is told that surely leaves the middle on the inner side.
@@ -232,10 +229,14 @@ impl<'a> ExpandingPolytope<'a> {
         Some(())
     }
 
-    fn expand(&mut self, within: f64, meter: &mut WorkMeter) -> Option<Vec<NearFacet>> {
-        let [r, s] = self.sets;
-        let max_corners = MAX_CORNERS * (r.vertex_count() + s.vertex_count());
-        let mut found: Vec<(u32, f64)> = Vec::new();
+    /// Expands until the nearest facets are found; `None` where the search gives up.
+    fn expand(&mut self, sets: Sets, within: f64, meter: &mut WorkMeter) -> Option<()> {
+        let max_corners = MAX_CORNERS
+            * sets
+                .map(PlacedPrimitive::vertex_count)
+                .iter()
+                .sum::<usize>();
+        self.reached.clear();
         let mut least = f64::INFINITY;
         while let Some(Queued { offset, facet }) = self.queue.pop() {
             if offset > least + within + self.rounding {
@@ -251,11 +252,11 @@ impl<'a> ExpandingPolytope<'a> {
             if meter.is_exceeded() {
                 break;
             }
-            let corner = self.extreme(&normal);
+            let corner = extreme(sets, &normal);
             let height = normal.dot(&corner.point);
             least = least.min(height);
             if height <= offset + self.rounding {
-                found.push((facet, height));
+                self.reached.push((facet, height));
                 continue;
             }
             // A corner that the triangle has already takes it no farther.
@@ -266,18 +267,23 @@ impl<'a> ExpandingPolytope<'a> {
             }
             self.take_in(facet, corner)?;
         }
-        let is_there = |&(facet, _): &(u32, f64)| !self.facets[facet as usize].is_gone;
-        let facets = found.into_iter().filter(is_there).map(|(facet, height)| {
+        self.found.clear();
+        for &(facet, height) in &self.reached {
             let Facet {
-                normal, corners, ..
-            } = self.facets[facet as usize];
-            NearFacet {
+                is_gone,
                 normal,
-                height,
-                corners: corners.map(|corner| self.corners[corner as usize].of),
+                corners,
+                ..
+            } = self.facets[facet as usize];
+            if !is_gone {
+                self.found.push(NearFacet {
+                    normal,
+                    height,
+                    corners: corners.map(|corner| self.corners[corner as usize].of),
+                });
             }
-        });
-        Some(facets.collect())
+        }
+        Some(())
     }
 
     /// Puts a new corner in the place of a triangle and of all that are before it. `None` where their rim does not go once round.
@@ -376,7 +382,8 @@ mod tests {
         let corners = r.vertices().iter().chain(s.vertices());
         let size = corners.map(|corner| corner.amax()).fold(0.0, f64::max);
         let meter = &mut WorkMeter::default();
-        let Some(found) = nearest_facets(&r, &s, size, within, meter) else {
+        let mut polytope = ExpandingPolytope::default();
+        let Some(found) = polytope.nearest_facets([&r, &s], size, within, meter) else {
             return false;
         };
         let height = |normal: &Vec3| s.extent_along(normal).1 - r.extent_along(normal).0;
@@ -391,7 +398,7 @@ mod tests {
         let least = least.fold(f64::INFINITY, f64::min);
         assert!((least - want).abs() <= 1e-14 * size, "{least} for {want}");
         // No corner may be off a facet's plane, and no near facet may be missing.
-        for facet in &found {
+        for facet in found {
             assert!(facet.height <= least + within + 1e-14 * size);
             assert!((height(&facet.normal) - facet.height).abs() <= 1e-14 * size);
             for [of_r, of_s] in facet.corners {

@@ -144,7 +144,7 @@ mod tests {
     use cstk_scenes::Random;
 
     use super::*;
-    use crate::convex::polytope_distance::gap_of_primitives;
+    use crate::convex::placed::gap_of_primitives;
     use crate::convex::{
         ContactMode, DistanceScratch, PlacedBuffer, Precision, PrimitiveDistance, measure, mode_of,
     };

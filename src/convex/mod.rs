@@ -15,6 +15,7 @@ mod cuboids_closest;
 mod cuboids_within;
 mod curved_contacts;
 mod distance;
+mod every_feature;
 mod expanding_polytope;
 mod extreme_vertex;
 mod facet_normals;
@@ -52,12 +53,13 @@ pub use distance::{
     PrimitiveDistance, beyond_radii, closed_distance, measure, meeting_or_beyond,
     middle_of_overlap, parts,
 };
+pub use every_feature::DistanceScratch;
 pub use flat_contact::is_flat_contact;
 pub use outline::{MAX_CORNERS, Outline, moved};
 pub use penetration::penetration;
 pub use placed::{PlacedBuffer, PlacedPrimitive, Precision};
 pub use polygon_distance::{NearestFeatures, PolygonDistance, polygon_closest, polygon_distance};
-pub use polytope_distance::{DistanceScratch, cuboid};
+pub use polytope_distance::cuboid;
 pub use polytope_penetration::Penetration;
 pub use sweep::{Extension, Sweep, stays_apart_along};
 pub use way::HalfSpace;

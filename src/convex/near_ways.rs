@@ -6,7 +6,7 @@
 use smallvec::SmallVec;
 
 use super::cuboid_axes::{CuboidAxes, EdgeGap, GAP_ERROR};
-use super::expanding_polytope::nearest_facets;
+use super::expanding_polytope::ExpandingPolytope;
 use super::facet_normals::unit_across;
 use super::placed::{PlacedPrimitive, Precision};
 use super::polytope_distance::cuboid;
@@ -31,7 +31,8 @@ pub fn near_ways(
         return Some(found);
     }
     let lines = Lines { sets: [r, s] };
-    let facets = nearest_facets(r, s, precision.size, within, meter)?;
+    let mut polytope = ExpandingPolytope::default();
+    let facets = polytope.nearest_facets([r, s], precision.size, within, meter)?;
     let mut found = Vec::with_capacity(2 * facets.len());
     for facet in facets {
         let exact = lines.across_facet(&facet.corners);

@@ -2,8 +2,8 @@
 
 use super::core::{is_curved, is_smooth};
 use super::distance::measure;
+use super::every_feature::DistanceScratch;
 use super::placed::{PlacedPrimitive, Precision};
-use super::polytope_distance::DistanceScratch;
 use super::polytope_penetration::{Penetration, polytope_penetration};
 use crate::error::{Error, ErrorKind, Result};
 use crate::gjk::DistanceLimits;

@@ -301,6 +301,11 @@ impl<'a> PlacedPrimitive<'a> {
     }
 }
 
+/// The signed gap of the projections along the unit vector `direction`, from B to A.
+pub fn gap_of_primitives(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &Vec3) -> f64 {
+    a.extent_along(direction).0 - b.extent_along(direction).1
+}
+
 /// The support function of the hull of the vertices, each named by its index.
 impl Support for PlacedPrimitive<'_> {
     #[inline(always)]

@@ -2,23 +2,17 @@
 //! distance, and a supporting direction certifies it; where none does, all features are compared.
 
 use super::beyond::Beyond;
-use super::closest::{Closest, FeatureSet, closest_features, closest_segments};
+use super::closest::{Closest, closest_features, closest_segments};
 use super::cuboid_distance::segment_to_cuboid;
 use super::cuboids_closest::{CuboidsClosest, cuboids_closest};
+use super::every_feature::{DistanceScratch, Known, closest_of_all};
 use super::level_features::at_end;
-use super::placed::{PlacedPrimitive, Precision};
+use super::placed::{PlacedPrimitive, Precision, gap_of_primitives};
 use super::point_to_polygon::point_to_polygon;
 use crate::gjk::{DistanceLimits, NearestCorners, gjk};
 use crate::pose::Vec3;
 use crate::primitive::{Cuboid, Feature, FeatureKind};
 use crate::tolerance;
-
-/// Scratch memory of the distance computation, reused from pair to pair.
-#[derive(Default)]
-pub struct DistanceScratch {
-    a: FeatureSet,
-    b: FeatureSet,
-}
 
 /// The closest points of the hulls of two primitives' vertices, unless these are proved to be farther apart than the cutoff.
 #[inline(always)]
@@ -69,7 +63,9 @@ fn closest_by_features(
     if limits.cutoff < f64::INFINITY && plane_gap(a, b).max(plane_gap(b, a)) > limits.cutoff {
         return Err(Beyond::SOMEHOW);
     }
-    Ok(all_features(a, b, scratch))
+    scratch.a.set_all(a);
+    scratch.b.set_all(b);
+    Ok(closest_features(a, &scratch.a, b, &scratch.b, true))
 }
 
 /// The closest points in closed form, in space: of a point or segment with a point, segment or box, and of a point with a small
@@ -150,16 +146,6 @@ fn is_large(placed: &PlacedPrimitive) -> bool {
     placed.shape.edges.len() > MAX_EDGES_ENUMERATED
 }
 
-fn all_features(
-    a: &PlacedPrimitive,
-    b: &PlacedPrimitive,
-    scratch: &mut DistanceScratch,
-) -> Closest {
-    scratch.a.set_all(a);
-    scratch.b.set_all(b);
-    closest_features(a, &scratch.a, b, &scratch.b, true)
-}
-
 /// The closest points of polygons in one plane: compares the outlines, then tests containment.
 fn planar_closest(
     a: &PlacedPrimitive,
@@ -230,6 +216,7 @@ fn bounded_closest(
             .filter(|found| found.distance <= accepted)
             .unwrap_or(found));
     }
+    let mut attained = bounds.attained;
     if bounds.lower > 0.0 {
         let slack = tolerance::NEAR_SUPPORT * size;
         scratch.a.set_supporting(a, &-bounds.direction, slack);
@@ -241,23 +228,13 @@ fn bounded_closest(
         {
             return Ok(found);
         }
+        attained = attained.min(found.distance);
     }
-    // Features that touch or cross are tested first: they say more than a vertex of one set inside the other.
-    let found = all_features(a, b, scratch);
-    if found.distance <= pair.error {
-        return Ok(found);
-    }
-    let contained = |outer: &PlacedPrimitive, inner: &PlacedPrimitive| {
-        let (i, point) = contained_vertex(inner, outer)?;
-        Some((Feature::vertex(i), point))
+    let known = Known {
+        attained,
+        direction: (bounds.lower > 0.0).then_some(bounds.direction),
     };
-    if let Some((vertex, point)) = contained(b, a) {
-        return Ok(Closest::meeting_at(point, [vertex, Feature::interior()]));
-    }
-    if let Some((vertex, point)) = contained(a, b) {
-        return Ok(Closest::meeting_at(point, [Feature::interior(), vertex]));
-    }
-    Ok(found)
+    Ok(closest_of_all([a, b], &known, pair, scratch))
 }
 
 /// The nearest points between the corners that GJK ended with, if the corners of each side span a feature.
@@ -292,15 +269,6 @@ fn foot_in(placed: &PlacedPrimitive, face: Feature, point: &Vec3) -> Option<Vec3
     is_over.then(|| point - placed.normal(face) * height)
 }
 
-/// A vertex of A inside the solid B.
-fn contained_vertex(a: &PlacedPrimitive, b: &PlacedPrimitive) -> Option<(u32, Vec3)> {
-    let vertices = a.vertices().iter().enumerate();
-    vertices
-        .filter(|(_, point)| b.contains(point))
-        .map(|(i, point)| (i as u32, *point))
-        .next()
-}
-
 /// The largest gap proved by one of these directions: the given one, the one between the points, and the normal of their
 /// features.
 fn certificate(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest, direction: Vec3) -> f64 {
@@ -316,11 +284,6 @@ fn certificate(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest, direct
         offer(normal);
     }
     best
-}
-
-/// The signed gap of the projections along the unit vector `direction`, from B to A.
-pub fn gap_of_primitives(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &Vec3) -> f64 {
-    a.extent_along(direction).0 - b.extent_along(direction).1
 }
 
 /// The normal that the features of a contact define by themselves, up to sign: that of a face, or the common

@@ -4,8 +4,9 @@
 //! The shortest one goes along the normal of a facet of the sets' Minkowski difference (see `ways_out.rs`), and is exact to rounding.
 
 use super::closest::{FeatureSet, closest_features};
+use super::every_feature::DistanceScratch;
 use super::placed::{PlacedPrimitive, Precision};
-use super::polytope_distance::{DistanceScratch, closest_polytopes};
+use super::polytope_distance::closest_polytopes;
 use super::way::Way;
 use super::ways_out::shortest_way;
 use crate::gjk::DistanceLimits;
