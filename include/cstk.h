@@ -6129,7 +6129,8 @@ cstk_status cstk_slide_to_options_default(cstk_slide_to_options *out, size_t siz
  *
  * A motion whose start touches is proved as cstk_slide proves it; all others cstk_motion proves too. Where q is in the goal the path is q
  * alone, and nothing is asked. The limit of cstk_query_set_limit counts for the whole way and ends it with
- * CSTK_SLIDE_TO_LIMITED. CSTK_ERROR_CANCELLED where `progress` says so. CSTK_ERROR_UNSUPPORTED as for cstk_slide.
+ * CSTK_SLIDE_TO_LIMITED. CSTK_ERROR_CANCELLED where `progress` says so. CSTK_ERROR_UNSUPPORTED as for cstk_slide, but only where a sliding
+ * step is needed: what the straight motion decides is answered for every C-object that cstk_motion takes.
  */
 cstk_status cstk_slide_to(cstk_query *query,
                           const cstk_cobject *cobject,

@@ -15,7 +15,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::facet_normals::unit_across;
+use super::facet_lines::unit_across;
 use super::placed::PlacedPrimitive;
 use crate::gjk::Support;
 use crate::pose::Vec3;

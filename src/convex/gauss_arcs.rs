@@ -16,21 +16,16 @@ use crate::work_meter::WorkMeter;
 
 /// The edges of a polytope with their arcs.
 pub struct GaussArcs {
-    edges: Vec<Edge>,
-    /// For each edge, the vectors from it to a corner of each adjacent face.
+    /// The vectors from an edge to a corner of each adjacent face, edge after edge.
     wings: Vec<Vec3>,
+    /// For each edge, its range in `wings`.
+    ranges: Vec<Range<usize>>,
     /// Edge indices, grouped by leaf.
     order: Vec<u32>,
     /// The arcs' boxes, in that order.
     boxes: Vec<Bounds>,
     /// The root is the last.
     nodes: Vec<Node>,
-}
-
-struct Edge {
-    along: Vec3,
-    /// Its range in `wings`.
-    wings: Range<usize>,
 }
 
 struct Node {
@@ -55,9 +50,10 @@ impl GaussArcs {
     pub fn new(placed: &PlacedPrimitive, is_reversed: bool, slack: f64) -> Self {
         let beside = EdgeNeighbours::of(placed);
         let count = placed.shape.edges.len();
-        let (mut edges, mut boxes) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        let (mut ranges, mut boxes) = (Vec::with_capacity(count), Vec::with_capacity(count));
         let mut wings = Vec::with_capacity(2 * count);
-        for &[a, b] in &placed.shape.edges {
+        let mut order: Vec<u32> = Vec::with_capacity(count);
+        for (edge, &[a, b]) in (0..).zip(&placed.shape.edges) {
             let from = placed.vertex(a);
             let along = placed.vertex(b) - from;
             let first = wings.len();
@@ -71,38 +67,28 @@ impl GaussArcs {
                 placed.normal(faces[side].0 as usize)
             });
             boxes.push(if is_reversed { arc.reversed() } else { arc });
-            edges.push(Edge {
-                along,
-                wings: first..wings.len(),
-            });
+            ranges.push(first..wings.len());
+            // An edge of length 0 has no direction; a point has one such edge.
+            if along != Vec3::zeros() {
+                order.push(edge);
+            }
         }
-        // An edge of length 0 has no direction; a point has one such edge.
-        let has_length = |&i: &u32| edges[i as usize].along != Vec3::zeros();
-        let mut order: Vec<u32> = (0..edges.len() as u32).filter(has_length).collect();
         let mut nodes = Vec::new();
         if !order.is_empty() {
             build(&boxes, &mut order, 0, &mut nodes);
         }
         Self {
             boxes: order.iter().map(|&i| boxes[i as usize]).collect(),
-            edges,
             wings,
+            ranges,
             order,
             nodes,
         }
     }
 
-    pub fn len(&self) -> usize {
-        self.edges.len()
-    }
-
-    pub fn along(&self, edge: u32) -> &Vec3 {
-        &self.edges[edge as usize].along
-    }
-
     /// The lowest and highest projection of the corners beside an edge on a normal of it, relative to the edge.
     pub fn extent_at(&self, edge: u32, normal: &Vec3) -> [f64; 2] {
-        let wings = &self.wings[self.edges[edge as usize].wings.clone()];
+        let wings = &self.wings[self.ranges[edge as usize].clone()];
         let heights = wings.iter().map(|wing| normal.dot(wing));
         heights.fold([0.0f64; 2], |[low, high], x| [low.min(x), high.max(x)])
     }

@@ -18,6 +18,7 @@ mod distance;
 mod every_feature;
 mod expanding_polytope;
 mod extreme_vertex;
+mod facet_lines;
 mod facet_normals;
 mod flat_contact;
 mod gauss_arcs;

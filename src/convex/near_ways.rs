@@ -7,12 +7,11 @@ use smallvec::SmallVec;
 
 use super::cuboid_axes::{CuboidAxes, EdgeGap, GAP_ERROR};
 use super::expanding_polytope::ExpandingPolytope;
-use super::facet_normals::unit_across;
+use super::facet_lines::{FacetLines, Line};
 use super::placed::{PlacedPrimitive, Precision};
 use super::polytope_distance::cuboid;
 use super::way::{NO_NUMBER, Way, ways_along};
-use crate::pose::Vec3;
-use crate::primitive::{Cuboid, FeatureKind};
+use crate::primitive::Cuboid;
 use crate::work_meter::WorkMeter;
 
 /// The ways along the normals of the facets whose depth exceeds the least by no more than `within`, and some others; `None` where the
@@ -30,7 +29,7 @@ pub fn near_ways(
     if let Some(found) = near_ways_of_cuboids(r, s, precision, within) {
         return Some(found);
     }
-    let lines = Lines { sets: [r, s] };
+    let lines = FacetLines { sets: [r, s] };
     let mut polytope = ExpandingPolytope::default();
     let facets = polytope.nearest_facets([r, s], precision.size, within, meter)?;
     let mut found = Vec::with_capacity(2 * facets.len());
@@ -51,58 +50,6 @@ pub fn near_ways(
     Some(found)
 }
 
-/// The lines along which facets of the difference may be, each with its number.
-struct Lines<'a> {
-    sets: [&'a PlacedPrimitive<'a>; 2],
-}
-
-/// A line's number, and a unit vector along it.
-type Line = (u64, Vec3);
-
-impl Lines<'_> {
-    /// Across a face of one of the sets.
-    fn across_face(&self, side: usize, face: u32) -> Line {
-        let before = match side {
-            0 => 0,
-            _ => self.sets[0].shape.faces.len() as u64,
-        };
-        let normal = self.sets[side].normal(face as usize);
-        (before + u64::from(face), normal)
-    }
-
-    /// Across an edge of each; `None` where they are parallel.
-    fn across_edges(&self, edges: [u32; 2]) -> Option<Line> {
-        let [along_r, along_s] = [0, 1].map(|side| {
-            let placed = self.sets[side];
-            let (from, to) = placed.edge_ends(placed.shape.edges[edges[side] as usize]);
-            to - from
-        });
-        let [r, s] = self.sets.map(|placed| placed.shape);
-        let before = (r.faces.len() + s.faces.len()) as u64;
-        let pair = u64::from(edges[0]) * s.edges.len() as u64 + u64::from(edges[1]);
-        let normal = unit_across(&along_r, &along_s)?;
-        Some((before + pair, normal))
-    }
-
-    /// Across a facet of the difference, by the features of both sets that make it.
-    fn across_facet(&self, corners: &[[u32; 2]; 3]) -> Option<Line> {
-        let features = [0, 1].map(|side| {
-            let mut names: SmallVec<[u32; 3]> = corners.iter().map(|of| of[side]).collect();
-            names.sort_unstable();
-            names.dedup();
-            self.sets[side].feature_of(&names)
-        });
-        let index = |side: usize, kind: FeatureKind| {
-            let feature = features[side].filter(|feature| feature.kind == kind);
-            feature.map(|feature| feature.index)
-        };
-        if let Some(side) = (0..2).find(|&side| index(side, FeatureKind::Face).is_some()) {
-            return Some(self.across_face(side, index(side, FeatureKind::Face)?));
-        }
-        self.across_edges([index(0, FeatureKind::Edge)?, index(1, FeatureKind::Edge)?])
-    }
-}
-
 /// The lowest number of the two faces across an axis.
 fn lowest_face(cuboid: &Cuboid, axis: usize) -> u32 {
     let faces = [false, true].map(|is_high| cuboid.face_across(axis, is_high).index);
@@ -117,7 +64,7 @@ fn near_ways_of_cuboids(
     within: f64,
 ) -> Option<Vec<Way>> {
     let cuboids = [cuboid(r)?, cuboid(s)?];
-    let lines = Lines { sets: [r, s] };
+    let lines = FacetLines { sets: [r, s] };
     let axes = CuboidAxes::new([r, s], cuboids);
     let error = GAP_ERROR * precision.size;
     // Each with a lower bound of its depth.

@@ -117,7 +117,8 @@ pub unsafe extern "C" fn cstk_slide_to_options_default(
 ///
 /// A motion whose start touches is proved as cstk_slide proves it; all others cstk_motion proves too. Where q is in the goal the path is q
 /// alone, and nothing is asked. The limit of cstk_query_set_limit counts for the whole way and ends it with
-/// CSTK_SLIDE_TO_LIMITED. CSTK_ERROR_CANCELLED where `progress` says so. CSTK_ERROR_UNSUPPORTED as for cstk_slide.
+/// CSTK_SLIDE_TO_LIMITED. CSTK_ERROR_CANCELLED where `progress` says so. CSTK_ERROR_UNSUPPORTED as for cstk_slide, but only where a sliding
+/// step is needed: what the straight motion decides is answered for every C-object that cstk_motion takes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_slide_to(
     query: *mut cstk_query,
