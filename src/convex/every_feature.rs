@@ -6,12 +6,11 @@
 //! left, and the answer is that of all.
 
 use super::closest::{Closest, FeatureSet, closest_features};
-use super::expanding_polytope::{ExpandingPolytope, NearFacet};
+use super::expanding_polytope::{ExpandingPolytope, Overlap};
 use super::placed::{PlacedPrimitive, Precision, gap_of_primitives};
 use crate::pose::Vec3;
 use crate::primitive::Feature;
 use crate::tolerance;
-use crate::work_meter::WorkMeter;
 
 /// What is known of the closest points.
 pub struct Known {
@@ -19,6 +18,8 @@ pub struct Known {
     pub attained: f64,
     /// A unit direction from B to A that parts the sets.
     pub direction: Option<Vec3>,
+    /// A point of both, but for rounding.
+    pub common: Option<Vec3>,
 }
 
 /// Scratch memory of the distance computation, reused from pair to pair.
@@ -31,10 +32,7 @@ pub struct DistanceScratch {
     polytope: ExpandingPolytope,
 }
 
-/// Fewer pairs of edges are compared at once: no direction is found in less time.
-const FEW_EDGE_PAIRS: usize = 1024;
-
-/// The closest points of two sets.
+/// The closest points of two sets. Of those that clearly overlap none are looked for.
 pub fn closest_of_all(
     [a, b]: [&PlacedPrimitive; 2],
     known: &Known,
@@ -46,12 +44,20 @@ pub fn closest_of_all(
         b: of_b,
         polytope,
     } = scratch;
-    let is_small = a.shape.edges.len() * b.shape.edges.len() <= FEW_EDGE_PAIRS;
-    let direction = match is_small {
-        true => None,
-        false => known
-            .direction
-            .or_else(|| hardly_overlapping([a, b], pair, polytope)),
+    let touch_depth = tolerance::TOUCH_DEPTH * pair.size;
+    let overlap = match known.direction {
+        Some(_) => None,
+        None => polytope.overlap([a, b], pair.size, touch_depth),
+    };
+    if let (Some(Overlap::Deep(depth)), Some(common)) = (overlap, known.common) {
+        return Closest {
+            depth,
+            ..Closest::meeting_at(common, [Feature::interior(); 2])
+        };
+    }
+    let direction = match overlap {
+        Some(Overlap::Hardly(facet)) => Some(facet.normal),
+        _ => known.direction.or_else(|| across_flat([a, b])),
     };
     match direction {
         Some(direction) => {
@@ -94,22 +100,12 @@ fn compared(
     found
 }
 
-/// The direction from B to A along which sets that touch or overlap do so least, or nearly.
-fn hardly_overlapping(
-    sets @ [a, b]: [&PlacedPrimitive; 2],
-    pair: &Precision,
-    polytope: &mut ExpandingPolytope,
-) -> Option<Vec3> {
-    let facets = polytope.nearest_facets(sets, pair.size, 0.0, &mut WorkMeter::default());
-    let by_height = |one: &&NearFacet, other: &&NearFacet| one.height.total_cmp(&other.height);
-    let nearest = facets.and_then(|facets| facets.iter().min_by(by_height));
-    let nearest = nearest.map(|facet| facet.normal);
-    nearest.or_else(|| {
-        let flat = [a, b].into_iter().filter(|placed| placed.shape.is_flat());
-        let normals = flat.flat_map(|placed| [placed.normal(0), -placed.normal(0)]);
-        let gap = |normal: &Vec3| gap_of_primitives(a, b, normal);
-        normals.max_by(|one, other| gap(one).total_cmp(&gap(other)))
-    })
+/// The normal of a flat set, towards A, along which the sets overlap least.
+fn across_flat([a, b]: [&PlacedPrimitive; 2]) -> Option<Vec3> {
+    let flat = [a, b].into_iter().filter(|placed| placed.shape.is_flat());
+    let normals = flat.flat_map(|placed| [placed.normal(0), -placed.normal(0)]);
+    let gap = |normal: &Vec3| gap_of_primitives(a, b, normal);
+    normals.max_by(|one, other| gap(one).total_cmp(&gap(other)))
 }
 
 #[cfg(test)]
@@ -188,7 +184,10 @@ mod tests {
                 let meets = measured(middle).distance <= pair.error;
                 *(if meets { &mut low } else { &mut high }) = middle;
             }
-            let off = 10f64.powf(random.within(-17.0, -5.0)) * random.within(-1.0, 1.0).signum();
+            let off = match round % 2 {
+                0 => 10f64.powf(random.within(-17.0, -5.0)),
+                _ => -10f64.powf(random.within(-17.0, -10.0)),
+            };
             let want = measured(low + off);
             let mut buffer = PlacedBuffer::default();
             let pose = at(low + off);
@@ -198,6 +197,7 @@ mod tests {
                 let known = Known {
                     attained: want.distance,
                     direction,
+                    common: None,
                 };
                 let found = closest_of_all([&a, &b], &known, &pair, &mut scratch);
                 assert_eq!(found.points, want.points, "{round}");

@@ -41,6 +41,15 @@ const MAX_CORNERS: usize = 4;
 /// A first tetrahedron whose points are nearer to the plane of the others than this, times the rounding, counts as flat.
 const FLAT: f64 = 1e4;
 
+/// How far two polytopes overlap.
+#[derive(Clone, Copy, Debug)]
+pub enum Overlap {
+    /// By at least this.
+    Deep(f64),
+    /// As far as this facet of their difference tells.
+    Hardly(NearFacet),
+}
+
 struct Corner {
     point: Vec3,
     of: [u32; 2],
@@ -135,14 +144,31 @@ impl ExpandingPolytope {
         within: f64,
         meter: &mut WorkMeter,
     ) -> Option<&[NearFacet]> {
-        self.rounding = SUPPORT_ERROR * size;
-        self.begin(sets)?;
-        self.expand(sets, within, meter)?;
+        self.begin(sets, size)?;
+        self.expand(sets, within, f64::INFINITY, meter)?;
         Some(&self.found)
     }
 
+    /// How far two polytopes overlap: as far as is proved once it is more than `enough`, else along the nearest facet. `None` as for
+    /// [`Self::nearest_facets`].
+    pub fn overlap(&mut self, sets: Sets, size: f64, enough: f64) -> Option<Overlap> {
+        self.begin(sets, size)?;
+        let enough = enough + self.rounding;
+        let offset = self.expand(sets, 0.0, enough, &mut WorkMeter::default())?;
+        if offset > enough {
+            return Some(Overlap::Deep(offset - self.rounding));
+        }
+        let by_height = |one: &&NearFacet, other: &&NearFacet| one.height.total_cmp(&other.height);
+        self.found
+            .iter()
+            .min_by(by_height)
+            .copied()
+            .map(Overlap::Hardly)
+    }
+
     /// Begins with a tetrahedron; `None` if the difference is flat.
-    fn begin(&mut self, sets: Sets) -> Option<()> {
+    fn begin(&mut self, sets: Sets, size: f64) -> Option<()> {
+        self.rounding = SUPPORT_ERROR * size;
         self.corners.clear();
         self.facets.clear();
         self.queue.clear();
@@ -229,15 +255,22 @@ impl ExpandingPolytope {
         Some(())
     }
 
-    /// Expands until the nearest facets are found; `None` where the search gives up.
-    fn expand(&mut self, sets: Sets, within: f64, meter: &mut WorkMeter) -> Option<()> {
+    /// Expands until the nearest facets are found, or no offset is `enough` or less. The least offset then; `None` where the search
+    /// gives up.
+    fn expand(
+        &mut self,
+        sets: Sets,
+        within: f64,
+        enough: f64,
+        meter: &mut WorkMeter,
+    ) -> Option<f64> {
         let max_corners = MAX_CORNERS
             * sets
                 .map(PlacedPrimitive::vertex_count)
                 .iter()
                 .sum::<usize>();
         self.reached.clear();
-        let mut least = f64::INFINITY;
+        let (mut least_offset, mut least) = (f64::INFINITY, f64::INFINITY);
         while let Some(Queued { offset, facet }) = self.queue.pop() {
             if offset > least + within + self.rounding {
                 break;
@@ -247,6 +280,12 @@ impl ExpandingPolytope {
             } = self.facets[facet as usize];
             if is_gone {
                 continue;
+            }
+            if self.reached.is_empty() {
+                least_offset = offset;
+            }
+            if offset > enough {
+                break;
             }
             meter.charge(1);
             if meter.is_exceeded() {
@@ -283,7 +322,7 @@ impl ExpandingPolytope {
                 });
             }
         }
-        Some(())
+        Some(least_offset)
     }
 
     /// Puts a new corner in the place of a triangle and of all that are before it. `None` where their rim does not go once round.
@@ -386,6 +425,7 @@ mod tests {
         let Some(found) = polytope.nearest_facets([&r, &s], size, within, meter) else {
             return false;
         };
+        let found = found.to_vec();
         let height = |normal: &Vec3| s.extent_along(normal).1 - r.extent_along(normal).0;
         let normals = all_normals([&r, &s]);
         let heights: Vec<f64> = normals.iter().map(height).collect();
@@ -398,12 +438,24 @@ mod tests {
         let least = least.fold(f64::INFINITY, f64::min);
         assert!((least - want).abs() <= 1e-14 * size, "{least} for {want}");
         // No corner may be off a facet's plane, and no near facet may be missing.
-        for facet in found {
+        for facet in &found {
             assert!(facet.height <= least + within + 1e-14 * size);
             assert!((height(&facet.normal) - facet.height).abs() <= 1e-14 * size);
             for [of_r, of_s] in facet.corners {
                 let corner = s.vertex(of_s) - r.vertex(of_r);
                 assert!((facet.normal.dot(&corner) - facet.height).abs() <= 1e-14 * size);
+            }
+        }
+        for (part, is_deep) in [(0.5, true), (2.0, false)] {
+            match polytope.overlap([&r, &s], size, part * want) {
+                Some(Overlap::Deep(depth)) => {
+                    assert!(is_deep && depth > part * want && depth <= want)
+                }
+                Some(Overlap::Hardly(facet)) => {
+                    assert!(!is_deep || want < 1e-13 * size);
+                    assert!((facet.height - want).abs() <= 1e-14 * size);
+                }
+                None => panic!("given up"),
             }
         }
         for (normal, height) in normals.iter().zip(heights) {

@@ -230,9 +230,14 @@ fn bounded_closest(
         }
         attained = attained.min(found.distance);
     }
+    let is_common = |nearest: &NearestCorners| nearest.difference.norm() <= pair.error;
     let known = Known {
         attained,
         direction: (bounds.lower > 0.0).then_some(bounds.direction),
+        common: bounds
+            .nearest
+            .filter(is_common)
+            .map(|nearest| nearest.points[0]),
     };
     Ok(closest_of_all([a, b], &known, pair, scratch))
 }
