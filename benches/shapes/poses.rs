@@ -37,7 +37,7 @@ impl Motion {
 }
 
 /// `count` placements, in which the first body was brought in along a line through the other's middle until they touched, and
-/// then moved back, or on, by a number out of `gaps` (those below 0 are depths).
+/// then moved back, or on as far as the other's middle, by a number out of `gaps` (those below 0 are depths).
 pub fn placements(
     ours: &Ours,
     motion: Motion,
@@ -122,6 +122,6 @@ impl Approach {
                 break;
             }
         }
-        at(away + self.gap)
+        at((away + self.gap).max(0.0))
     }
 }

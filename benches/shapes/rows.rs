@@ -69,6 +69,7 @@ pub type Maker = Box<dyn Fn() -> Rows>;
 pub fn all(quick: bool, seed: u64) -> Vec<Maker> {
     let mut makers = single_shapes();
     makers.extend(standing_shapes());
+    makers.extend(touching_shapes());
     makers.extend(shapes_and_meshes(seed));
     makers.extend(thresholds(seed));
     makers.extend(clouds(quick, seed));
@@ -123,6 +124,39 @@ fn standing_shapes() -> Vec<Maker> {
                     &[Query::Distance, Query::Collide],
                 )
             }));
+        }
+    }
+    makers
+}
+
+/// What lies on one another, within 1e-10, and what has one middle: solvers that step towards an answer find none there.
+fn touching_shapes() -> Vec<Maker> {
+    let mut makers: Vec<Maker> = Vec::new();
+    for (group, gaps) in [
+        ("touching shapes", [-1e-10, 1e-10]),
+        ("shapes about one middle", [-2.0; 2]),
+    ] {
+        for kind in [
+            "box",
+            "capsule",
+            "cylinder",
+            "cone",
+            "ellipsoid",
+            "prism 12",
+            "hull 50",
+            "hull 500",
+        ] {
+            for motion in [Motion::Random, Motion::Aligned] {
+                makers.push(Box::new(move || Rows {
+                    motion,
+                    gaps,
+                    ..Rows::of(
+                        group,
+                        [kind; 2].map(Shape::named),
+                        &[Query::Distance, Query::Collide],
+                    )
+                }));
+            }
         }
     }
     makers

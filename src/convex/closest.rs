@@ -114,12 +114,21 @@ impl FeatureSet {
     /// The features with a vertex that is at least as far along `direction` as `height`.
     pub fn set_reaching(&mut self, placed: &PlacedPrimitive, direction: &Vec3, height: f64) {
         self.clear();
-        self.heights.clear();
         let heights = placed.vertices().iter().map(|v| direction.dot(v));
-        self.heights.extend(heights);
-        let reaches = |&i: &u32| self.heights[i as usize] >= height;
-        let vertices = (0..placed.vertex_count() as u32).filter(reaches);
-        self.vertices.extend(vertices);
+        let reaching = (0..).zip(heights).filter(|(_, here)| *here >= height);
+        self.vertices.extend(reaching.map(|(i, _)| i));
+        if let Some(incidence) = placed.incidence() {
+            for &i in &self.vertices {
+                self.edges.extend(incidence.edges_of(i));
+                self.faces.extend(incidence.faces_of(i));
+            }
+            for features in [&mut self.edges, &mut self.faces] {
+                features.sort_unstable();
+                features.dedup();
+            }
+            return;
+        }
+        let reaches = |i: &u32| self.vertices.binary_search(i).is_ok();
         let edges = placed.shape.edges.iter().zip(0..);
         let edges = edges.filter(|(edge, _)| edge.iter().any(reaches));
         self.edges.extend(edges.map(|(_, i)| i));

@@ -257,9 +257,10 @@ struct LocalFeatures {
 
 impl LocalFeatures {
     fn around(placed: &PlacedPrimitive, point: &Vec3, near: f64) -> Self {
+        let faces: SmallVec<[usize; 16]> = placed.faces_at(point, near).collect();
         let mut directions = Directions::new();
-        for &ends in &placed.shape.edges {
-            let (p, q) = placed.edge_ends(ends);
+        for edge in edges_of(placed, &faces) {
+            let (p, q) = placed.edge_ends(placed.shape.edges[edge as usize]);
             let (along, arm) = (q - p, point - p);
             // Most edges are farther away than their lines, which is quick to tell.
             let square = 2.0 * near * near * along.norm_squared();
@@ -272,14 +273,29 @@ impl LocalFeatures {
                 directions.extend(along.try_normalize(0.0));
             }
         }
-        let normals = (0..placed.shape.faces.len())
-            .filter(|&f| placed.height_over(f, point).abs() <= near)
-            .map(|f| placed.normal(f))
-            .collect();
+        let normals = faces.iter().map(|&face| placed.normal(face)).collect();
         Self {
             normals,
             directions,
             is_flat: placed.shape.faces.len() == 1,
         }
     }
+}
+
+/// The edges of some faces, and others that end in their corners, in the order of their numbers: all edges where it is not known which
+/// meet in a corner.
+fn edges_of(placed: &PlacedPrimitive, faces: &[usize]) -> SmallVec<[u32; 64]> {
+    let Some(incidence) = placed.incidence() else {
+        return (0..placed.shape.edges.len() as u32).collect();
+    };
+    let corners = faces
+        .iter()
+        .flat_map(|&face| placed.shape.faces[face].vertices.iter());
+    let mut edges: SmallVec<[u32; 64]> = corners
+        .flat_map(|&corner| incidence.edges_of(corner))
+        .copied()
+        .collect();
+    edges.sort_unstable();
+    edges.dedup();
+    edges
 }

@@ -4,7 +4,7 @@ use std::cell::{Cell, OnceCell};
 
 use crate::gjk::{Extreme, PointCloud, Support};
 use crate::pose::{Mat3, Pose, Vec3, turned, turned_back};
-use crate::primitive::{Convex, Face, Feature, Form, Primitive};
+use crate::primitive::{Convex, Face, Feature, Form, Incidence, Primitive};
 
 /// The size and error of a pair of bodies, and whether it is planar.
 #[derive(Clone, Copy, Debug)]
@@ -169,6 +169,11 @@ impl<'a> PlacedPrimitive<'a> {
         self.form
     }
 
+    /// Which edges and faces meet in each vertex, where that is known.
+    pub fn incidence(&self) -> Option<&'a Incidence> {
+        self.form?.incidence(self.shape)
+    }
+
     /// The lowest-dimensional feature that holds the given vertices, or `None` if there is none.
     pub fn feature_of(&self, vertices: &[u32]) -> Option<Feature> {
         match (self.form, vertices) {
@@ -236,6 +241,25 @@ impl<'a> PlacedPrimitive<'a> {
     pub fn height_over(&self, face: usize, point: &Vec3) -> f64 {
         let corner = self.vertex(self.shape.faces[face].vertices[0]);
         self.normal(face).dot(&(point - corner))
+    }
+
+    /// The faces in whose planes a point lies, to within `near`.
+    pub fn faces_at(&self, point: &Vec3, near: f64) -> impl Iterator<Item = usize> {
+        // The point is turned once, not each normal.
+        let turned = match self.vertices {
+            Vertices::Moved { home, .. } => Some((home, self.seen(point))),
+            _ => None,
+        };
+        let height = move |face: usize| match &turned {
+            Some((home, seen)) => {
+                let Face {
+                    vertices, normal, ..
+                } = &self.shape.faces[face];
+                normal.dot(&(seen - home[vertices[0] as usize]))
+            }
+            None => self.height_over(face, point),
+        };
+        (0..self.shape.faces.len()).filter(move |&face| height(face).abs() <= near)
     }
 
     /// The height of `point` over face `face`, and whether its foot lies inside the face.

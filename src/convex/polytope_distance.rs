@@ -200,21 +200,28 @@ fn bounded_closest(
             ..Closest::meeting_at(bounds.common, interior)
         });
     }
+    // A common point is all that yes or no needs; else what touches tells more.
     if let Some(points) = bounds.near
-        && bounds.overlap == 0.0
+        && (bounds.overlap == 0.0 || limits.enough >= 0.0)
     {
         return Ok(Closest::between(points, [Feature::interior(); 2]));
     }
+    let accepted = tolerance::CERTIFIED_GAP * size;
     if let Some(nearest) = &bounds.nearest
-        && bounds.lower > 0.0
-        && nearest.difference.norm() - bounds.lower <= tolerance::CERTIFIED_GAP * size
         && let Some(found) = between_corners(a, b, nearest)
     {
-        let accepted = bounds.lower + tolerance::CERTIFIED_GAP * size;
-        let at_end = at_end([a, b], found, pair.error);
-        return Ok(at_end
-            .filter(|found| found.distance <= accepted)
-            .unwrap_or(found));
+        let by_search = nearest.difference.norm() - bounds.lower <= accepted;
+        let lower = match bounds.lower > 0.0 && by_search {
+            true => Some(bounds.lower),
+            // Nearly touching sets turn the search's direction, but not the normal of their features.
+            false => gap_along_normal(a, b, &found).filter(|gap| found.distance - gap <= accepted),
+        };
+        if let Some(lower) = lower {
+            let at_end = at_end([a, b], found, pair.error);
+            return Ok(at_end
+                .filter(|found| found.distance <= lower + accepted)
+                .unwrap_or(found));
+        }
     }
     let mut attained = bounds.attained;
     if bounds.lower > 0.0 {
@@ -222,7 +229,6 @@ fn bounded_closest(
         scratch.a.set_supporting(a, &-bounds.direction, slack);
         scratch.b.set_supporting(b, &bounds.direction, slack);
         let found = closest_features(a, &scratch.a, b, &scratch.b, false);
-        let accepted = tolerance::CERTIFIED_GAP * size;
         if found.distance - bounds.lower <= accepted
             || found.distance - certificate(a, b, &found, bounds.direction) <= accepted
         {
@@ -237,7 +243,9 @@ fn bounded_closest(
         common: bounds
             .nearest
             .filter(is_common)
-            .map(|nearest| nearest.points[0]),
+            .map(|nearest| nearest.points)
+            .or(bounds.near)
+            .map(|points| points[0]),
     };
     Ok(closest_of_all([a, b], &known, pair, scratch))
 }
@@ -289,6 +297,13 @@ fn certificate(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest, direct
         offer(normal);
     }
     best
+}
+
+/// The gap along the normal of the closest features, on the side where it is larger; negative where the sets overlap.
+fn gap_along_normal(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest) -> Option<f64> {
+    let normal = feature_normal(a, b, found)?;
+    let gaps = [normal, -normal].map(|n| gap_of_primitives(a, b, &n));
+    Some(gaps[0].max(gaps[1]))
 }
 
 /// The normal that the features of a contact define by themselves, up to sign: that of a face, or the common

@@ -75,6 +75,14 @@ impl Form {
         }
     }
 
+    /// Which edges and faces meet in each vertex; `None` for a box.
+    pub fn incidence(&self, shape: &Convex) -> Option<&Incidence> {
+        match self {
+            Self::Cuboid(_) => None,
+            Self::Hull(table) => Some(&HullForm::table(table, shape).incidence),
+        }
+    }
+
     /// Bytes of memory allocated so far.
     pub fn bytes(&self) -> usize {
         let held = match self {

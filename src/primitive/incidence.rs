@@ -54,6 +54,7 @@ impl Lists {
 }
 
 impl Incidence {
+    /// Of a shape's edges and faces.
     pub fn new(shape: &Convex) -> Self {
         let count = shape.vertices.len();
         let edges = (0..).zip(&shape.edges);
@@ -65,6 +66,16 @@ impl Incidence {
                 faces.flat_map(|(f, face)| face.vertices.iter().map(move |v| (*v, f))),
             ),
         }
+    }
+
+    /// The edges that end in a vertex, in ascending order.
+    pub fn edges_of(&self, vertex: u32) -> &[u32] {
+        self.edges.of(vertex)
+    }
+
+    /// The faces around a vertex, in ascending order.
+    pub fn faces_of(&self, vertex: u32) -> &[u32] {
+        self.faces.of(vertex)
     }
 
     /// The lowest-dimensional feature that holds the given vertices: for two vertices without a common edge, a face. `None` if
@@ -82,6 +93,7 @@ impl Incidence {
         self.faces.common(vertices).map(Feature::face)
     }
 
+    /// Bytes of memory allocated.
     pub fn bytes(&self) -> usize {
         let lists = [&self.edges, &self.faces];
         lists

@@ -34,6 +34,7 @@ pub use faces::{FaceSplit, split_face};
 pub use feature::{Feature, FeatureKind};
 pub use form::Form;
 pub use hull::{CheckedHull, checked_hull, excess_over, frame_of};
+pub use incidence::Incidence;
 pub use kind::PrimitiveKind;
 pub use plain_solid::is_plain_solid;
 pub use planar_hull::{convex_hull_2d, monotone_chain, outline, plane_axes};
