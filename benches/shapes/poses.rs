@@ -23,6 +23,12 @@ pub enum Motion {
     Upright,
     /// Independent, both turned by quarters alone: faces and axes are parallel.
     Aligned,
+    /// Independent, on one another.
+    Touching,
+    /// The same, both turned by quarters alone.
+    Resting,
+    /// About one middle, both turned by quarters alone.
+    Centred,
 }
 
 impl Motion {
@@ -32,6 +38,9 @@ impl Motion {
             Motion::Coherent => "coherent",
             Motion::Upright => "upright",
             Motion::Aligned => "aligned",
+            Motion::Touching => "touching",
+            Motion::Resting => "resting",
+            Motion::Centred => "centred",
         }
     }
 }
@@ -65,12 +74,14 @@ fn turn(random: &mut Random, motion: Motion) -> Pose {
         Pose::rotation(along, angle)
     };
     match motion {
-        Motion::Random | Motion::Coherent => random.rotation(),
+        Motion::Random | Motion::Coherent | Motion::Touching => random.rotation(),
         Motion::Upright => about(2, random.within(0.0, TAU)),
-        Motion::Aligned => (0..3).fold(Pose::identity(), |pose, axis| {
-            let quarters = (random.bits() % 4) as f64;
-            pose.compose(&about(axis, quarters * TAU / 4.0))
-        }),
+        Motion::Aligned | Motion::Resting | Motion::Centred => {
+            (0..3).fold(Pose::identity(), |pose, axis| {
+                let quarters = (random.bits() % 4) as f64;
+                pose.compose(&about(axis, quarters * TAU / 4.0))
+            })
+        }
     }
 }
 

@@ -129,34 +129,33 @@ fn standing_shapes() -> Vec<Maker> {
     makers
 }
 
-/// What lies on one another, within 1e-10, and what has one middle: solvers that step towards an answer find none there.
+/// What lies on one another, to within 1e-10, or has one middle: where solvers that step towards an answer find little to step on.
 fn touching_shapes() -> Vec<Maker> {
     let mut makers: Vec<Maker> = Vec::new();
-    for (group, gaps) in [
-        ("touching shapes", [-1e-10, 1e-10]),
-        ("shapes about one middle", [-2.0; 2]),
+    for kind in [
+        "box",
+        "capsule",
+        "cylinder",
+        "cone",
+        "ellipsoid",
+        "prism 12",
+        "hull 50",
+        "hull 500",
     ] {
-        for kind in [
-            "box",
-            "capsule",
-            "cylinder",
-            "cone",
-            "ellipsoid",
-            "prism 12",
-            "hull 50",
-            "hull 500",
+        for (motion, gaps) in [
+            (Motion::Touching, [-1e-10, 1e-10]),
+            (Motion::Resting, [-1e-10, 1e-10]),
+            (Motion::Centred, [-2.0; 2]),
         ] {
-            for motion in [Motion::Random, Motion::Aligned] {
-                makers.push(Box::new(move || Rows {
-                    motion,
-                    gaps,
-                    ..Rows::of(
-                        group,
-                        [kind; 2].map(Shape::named),
-                        &[Query::Distance, Query::Collide],
-                    )
-                }));
-            }
+            makers.push(Box::new(move || Rows {
+                motion,
+                gaps,
+                ..Rows::of(
+                    "touching shapes",
+                    [kind; 2].map(Shape::named),
+                    &[Query::Distance, Query::Collide],
+                )
+            }));
         }
     }
     makers

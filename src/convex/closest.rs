@@ -370,9 +370,10 @@ impl Segment {
 
 /// Parameters of the closest points of two segments.
 ///
-/// The lines' parameters are computed from the cross product of the directions. Nearly parallel directions make the parameters
-/// inaccurate, but the distance then depends on them as much less: it is fully accurate at any angle. With the usual
-/// determinant it would lose half its digits.
+/// Where both lie within the segments, the first is that of the lines, from the cross product of the directions: off by some EPSILON over
+/// the sine of their angle. The other is its foot on the other line. So the points are off along the lines alone, together, and their
+/// distance by that times the sine: it is fully accurate at any angle. With the usual determinant it would lose half its digits, and with
+/// two parameters from the cross product as much where the lines meet.
 #[inline(always)]
 pub fn closest_parameters(p: &Segment, q: &Segment) -> (f64, f64) {
     // A segment of length 0 is a point.
@@ -400,7 +401,7 @@ fn closest_of_lines(p: &Segment, q: &Segment) -> (f64, f64) {
     };
     if square > 0.0 {
         let s = between.cross(&q.along).dot(&cross) / square;
-        let t = between.cross(&p.along).dot(&cross) / square;
+        let t = q.along.dot(&(p.along * s - between)) / q.square;
         if s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0 {
             offer(s, t);
             if square > 1e-4 * p.square * q.square {
@@ -420,16 +421,31 @@ mod tests {
     use cstk_scenes::Random;
 
     use super::*;
+    use crate::pose::rotation_about;
     use crate::primitive::convex_polygon;
 
     #[test]
     fn nearly_parallel_segments_keep_their_digits() {
-        // Lines that cross in projection at their middles, 1e-3 apart, at angles down to 1e-12.
-        for angle in [1e-1, 1e-4, 1e-8, 1e-12] {
-            let p = Segment::new((Vec3::new(-1.0, 0.0, 0.0), Vec3::new(1.0, 0.0, 0.0)));
-            let q = Segment::new((Vec3::new(-1.0, -angle, 1e-3), Vec3::new(1.0, angle, 1e-3)));
+        let random = &mut Random::new(5);
+        for round in 0..20_000 {
+            // Lines that cross in projection, at angles down to 1e-12, anyhow turned.
+            let angle = 10f64.powf(random.within(-12.0, 0.0));
+            let height = [0.0, 1e-9, 1e-3][round % 3];
+            let frame = rotation_about(&vector(random).normalize(), random.within(0.0, 6.0));
+            let (y, x) = angle.sin_cos();
+            let ways = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(x, y, 0.0)];
+            let at = [Vec3::zeros(), Vec3::new(0.0, 0.0, height)];
+            let [p, q] = [0, 1].map(|i| {
+                let ends =
+                    [-1.0, 1.0].map(|sign| at[i] + ways[i] * (sign * random.within(0.1, 1.0)));
+                Segment::new((frame * ends[0], frame * ends[1]))
+            });
             let (s, t) = closest_parameters(&p, &q);
-            assert!(((p.at(s) - q.at(t)).norm() - 1e-3).abs() < 1e-17, "{angle}");
+            let distance = (p.at(s) - q.at(t)).norm();
+            assert!(
+                (distance - height).abs() < 2e-15,
+                "{angle}: {distance} for {height}"
+            );
         }
     }
 

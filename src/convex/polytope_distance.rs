@@ -200,9 +200,12 @@ fn bounded_closest(
             ..Closest::meeting_at(bounds.common, interior)
         });
     }
-    // A common point is all that yes or no needs; else what touches tells more.
-    if let Some(points) = bounds.near
-        && (bounds.overlap == 0.0 || limits.enough >= 0.0)
+    let is_common = |nearest: &NearestCorners| nearest.difference.norm() <= pair.error;
+    let common = bounds.nearest.filter(is_common);
+    let common = bounds.near.or(common.map(|nearest| nearest.points));
+    // Yes or no needs no more than a common point; else the features that touch are looked for.
+    if let Some(points) = common
+        && limits.enough >= 0.0
     {
         return Ok(Closest::between(points, [Feature::interior(); 2]));
     }
@@ -236,16 +239,10 @@ fn bounded_closest(
         }
         attained = attained.min(found.distance);
     }
-    let is_common = |nearest: &NearestCorners| nearest.difference.norm() <= pair.error;
     let known = Known {
         attained,
         direction: (bounds.lower > 0.0).then_some(bounds.direction),
-        common: bounds
-            .nearest
-            .filter(is_common)
-            .map(|nearest| nearest.points)
-            .or(bounds.near)
-            .map(|points| points[0]),
+        common: common.map(|points| points[0]),
     };
     Ok(closest_of_all([a, b], &known, pair, scratch))
 }
