@@ -1,5 +1,6 @@
 //! Primitives and pairs of bodies: distances, contacts, penetration, overlap.
 
+mod askew_lines;
 mod balls_and_solids;
 mod box_pairs;
 mod contacts;
