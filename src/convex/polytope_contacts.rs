@@ -171,18 +171,16 @@ impl ContactList<'_> {
     fn offer_corners(&mut self, [on_r, on_s]: &[SupportFeature; 2], slack: f64) {
         for (i, corner) in on_r.corners() {
             if on_s.covers(&corner, slack) {
-                self.offer(
-                    [corner, on_s.foot(&corner)],
-                    [Feature::vertex(i), on_s.feature],
-                );
+                let foot = on_s.foot(&corner);
+                let features = [Feature::vertex(i), on_s.feature_at(&foot, slack)];
+                self.offer([corner, foot], features);
             }
         }
         for (j, corner) in on_s.corners() {
             if on_r.covers(&corner, slack) {
-                self.offer(
-                    [on_r.foot(&corner), corner],
-                    [on_r.feature, Feature::vertex(j)],
-                );
+                let foot = on_r.foot(&corner);
+                let features = [on_r.feature_at(&foot, slack), Feature::vertex(j)];
+                self.offer([foot, corner], features);
             }
         }
     }
@@ -236,6 +234,8 @@ struct SupportFeature<'a> {
     sides: Vec<(Vec3, Vec3)>,
     normal: Vec3,
     feature: Feature,
+    /// Whether the ring's corners are all the feature's: those of faces that are level together are not.
+    is_whole: bool,
 }
 
 impl<'a> SupportFeature<'a> {
@@ -254,6 +254,10 @@ impl<'a> SupportFeature<'a> {
             let feature = feature_of(placed, &ring);
             (ring, feature)
         };
+        let is_whole = feature.kind != FeatureKind::Face || {
+            let corners = &placed.shape.faces[feature.index as usize].vertices;
+            ring.iter().all(|corner| corners.contains(corner))
+        };
         let corner = |i: usize| placed.vertex(ring[i % ring.len()]);
         let sides = match ring.len() {
             1 | 2 => Vec::new(),
@@ -267,7 +271,21 @@ impl<'a> SupportFeature<'a> {
             ring,
             normal: *direction,
             feature,
+            is_whole,
         }
+    }
+
+    /// The feature that holds a foot.
+    fn feature_at(&self, foot: &Vec3, slack: f64) -> Feature {
+        if self.is_whole {
+            return self.feature;
+        }
+        let mut faces = 0..self.placed.shape.faces.len();
+        let holding = faces.find(|&face| {
+            let (height, is_over) = self.placed.over_face(face, foot);
+            is_over && height.abs() <= slack
+        });
+        holding.map_or(self.feature, |face| Feature::face(face as u32))
     }
 
     fn corners(&self) -> impl Iterator<Item = (u32, Vec3)> + '_ {
@@ -311,7 +329,9 @@ impl<'a> SupportFeature<'a> {
             }
             _ => {
                 let normal = match self.feature.kind {
-                    FeatureKind::Face => self.placed.normal(self.feature.index as usize),
+                    FeatureKind::Face if self.is_whole => {
+                        self.placed.normal(self.feature.index as usize)
+                    }
                     _ => self.normal,
                 };
                 // Of a body that is hardly larger than the slack any face may have the most of its level corners.
