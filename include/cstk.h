@@ -6097,7 +6097,8 @@ cstk_status cstk_slide_step(const cstk_witness_list *list,
 
 /**
  * The report's compute-spring-step: the shortest step that takes all contacts of a list out to `desired_distance`, to
- * first order; where contacts oppose each other, out to the largest distance they can share. `out` has `nv` doubles.
+ * first order; where contacts oppose each other, out to the largest distance they can share. No step is longer than 1000 times what one
+ * contact alone asks for: contacts that oppose each other to within a thousandth count as opposed. `out` has `nv` doubles.
  * `found` is false, and `out` zero, where no contact is nearer or none can move out. See cstk_slide_step for the list.
  */
 cstk_status cstk_spring_step(const cstk_witness_list *list,

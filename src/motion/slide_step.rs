@@ -66,8 +66,13 @@ pub fn slide_step(
     Some(along)
 }
 
-/// The shortest step that takes all contacts out to `desired`. Where not all can get there, the step that takes them all
-/// out to the largest distance that they can share. `None` where no contact is nearer than `desired`, or none can move out.
+/// A step is no longer than this times the longest that one contact alone asks for. Contacts that oppose each other to within an angle of
+/// its inverse could share a larger distance only far along them, where derivatives say nothing, and rounding is as large as what is gained.
+const MAX_REACH: f64 = 1e3;
+
+/// The shortest step that takes all contacts out to `desired`. Where not all can get there, or not within [`MAX_REACH`], the step that
+/// takes them all out to the largest distance that they can share. `None` where no contact is nearer than `desired`, or none can move
+/// out.
 pub fn spring_step(
     approaches: &[Approach],
     limits: &[HalfSpace],
@@ -79,13 +84,16 @@ pub fn spring_step(
     }
     let nv = approaches.first()?.gradient.len();
     let still = vec![0.0; nv];
+    let alone = movable(approaches).map(|a| (desired - a.clearance) / nonzero::length(a.gradient));
+    let longest = MAX_REACH * alone.fold(0.0, f64::max);
     let out_to = |level: f64| {
         let mut half_spaces = limits.to_vec();
         half_spaces.extend(movable(approaches).map(|a| HalfSpace {
             row: a.gradient.to_vec(),
             least: level - a.clearance,
         }));
-        nearest_in_half_spaces(&still, &half_spaces)
+        let found = nearest_in_half_spaces(&still, &half_spaces)?;
+        (nonzero::length(&found) <= longest).then_some(found)
     };
     if let Some(found) = out_to(desired) {
         return Some(found);
@@ -117,4 +125,31 @@ const ROUNDING: f64 = 1e-12;
 /// The clearance of the nearest contact that some step changes.
 pub fn nearest_movable(approaches: &[Approach]) -> f64 {
     movable(approaches).fold(f64::INFINITY, |least, a| least.min(a.clearance))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Between two walls that hardly narrow: in the middle, whatever their angle, and not far along them.
+    #[test]
+    fn nearly_opposed_contacts_share_what_is_there() {
+        for tilt in [0.0, 1e-12, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4f64] {
+            let rows = [[0.0, 1.0], [-tilt.sin(), -tilt.cos()]];
+            let approaches = [0, 1].map(|i| Approach {
+                gradient: &rows[i],
+                clearance: [0.005, 0.015][i],
+            });
+            let step = spring_step(&approaches, &[], 0.1).unwrap();
+            assert!(nonzero::length(&step) <= 100.0, "{tilt}: {step:?}");
+            for approach in &approaches {
+                let after = approach.clearance + dot(approach.gradient, &step);
+                // The solver's rounding is a millionth of the step.
+                assert!(
+                    after >= 0.01 - 1e-6 * (1.0 + nonzero::length(&step)),
+                    "{tilt}: {after}"
+                );
+            }
+        }
+    }
 }
