@@ -4946,7 +4946,8 @@ enum cstk_clearance_outcome
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * The motion is proved free, as cstk_motion says it, and the bounds are within the tolerance.
+   * The motion is proved free, as cstk_motion says it, and the bounds are within the tolerance; of bodies with a deviation (see
+   * cstk_body_builder_set_deviation) farther apart by what it leaves open.
    */
   CSTK_CLEARANCE_KNOWN = 0,
   /**

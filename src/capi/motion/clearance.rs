@@ -45,7 +45,8 @@ unsafe impl OptionsStruct for cstk_clearance_options {
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_clearance_outcome {
-    /// The motion is proved free, as cstk_motion says it, and the bounds are within the tolerance.
+    /// The motion is proved free, as cstk_motion says it, and the bounds are within the tolerance; of bodies with a deviation (see
+    /// cstk_body_builder_set_deviation) farther apart by what it leaves open.
     CSTK_CLEARANCE_KNOWN = 0,
     /// There is contact at `time`, not always the first: `lower` is 0, and `upper` 0 or what rounding leaves.
     CSTK_CLEARANCE_HIT = 1,
