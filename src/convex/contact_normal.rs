@@ -3,10 +3,11 @@
 
 use smallvec::SmallVec;
 
-use super::closest::{Closest, Segment};
+use super::closest::Closest;
 use super::contact::mode_of;
 use super::placed::{PlacedPrimitive, Precision, gap_of_primitives};
 use super::polytope_distance::feature_normal;
+use super::segment::Segment;
 use super::ways_out::shortest_way;
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind};

@@ -1,10 +1,11 @@
 //! The closest points of two boxes by the separating axis test: of the axes the one with the largest gap proves the distance
 //! where the nearest features are a corner and a face, or two edges. Boxes with parallel axes have a closed form; GJK finds the others.
 
-use super::closest::{Closest, Segment, closest_parameters};
+use super::closest::Closest;
 use super::cuboid_axes::{CuboidAxes, EdgeGap, GAP_ERROR};
 use super::parallel_cuboids::parallel_closest;
 use super::placed::PlacedPrimitive;
+use super::segment::{Segment, closest_parameters};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::{Vec3, turned, turned_back};
 use crate::primitive::{Cuboid, Feature};

@@ -1,8 +1,9 @@
 //! Closest points in the middle of parallel features, a face and a face or an edge, or two edges: moved along them to an end of what the two
 //! have in common, a corner over a face or an edge or two edges that cross. There the features have a contact mode (§4.4).
 
-use super::closest::{Closest, Segment, closest_parameters};
+use super::closest::Closest;
 use super::placed::PlacedPrimitive;
+use super::segment::{Segment, closest_parameters};
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind};
 use crate::tolerance;

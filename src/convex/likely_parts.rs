@@ -4,13 +4,13 @@
 
 use std::ops::ControlFlow;
 
-use super::closest::{Segment, closest_parameters};
 use super::core::{Core, SmoothCore};
 use super::cuboid_distance::{nearest_parameter, way_from_cuboid};
 use super::nearest_parts::NearestParts;
 use super::placed::PlacedPrimitive;
 use super::point_to_smooth::nearest_on_smooth;
 use super::polytope_distance::cuboid;
+use super::segment::{Segment, closest_parameters};
 use crate::gjk::{DistanceLimits, Names, Nearby, Support};
 use crate::lanes::{Instructions, Work};
 use crate::pose::{Vec3, turned, turned_back};

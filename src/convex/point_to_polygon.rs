@@ -1,7 +1,8 @@
 //! The distance of a point from a flat polygon.
 
-use super::closest::{Closest, Segment};
+use super::closest::Closest;
 use super::placed::PlacedPrimitive;
+use super::segment::Segment;
 use crate::pose::Vec3;
 use crate::primitive::Feature;
 

@@ -3,10 +3,11 @@
 
 use nalgebra::Vector2;
 
-use super::closest::{Closest, Segment, closest_parameters};
+use super::closest::Closest;
 use super::contact::{Contact, ContactMode, deepest_first, mode_of};
 use super::contact_normal::ContactPair;
 use super::placed::{PlacedPrimitive, Precision};
+use super::segment::{Segment, closest_parameters};
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind, convex_hull_2d, plane_axes};
 use crate::tolerance;

@@ -2,12 +2,13 @@
 
 use super::beside_cylinder::{beside_cylinder, is_cylinder};
 use super::beyond::Beyond;
-use super::closest::{Closest, Segment, closest_parameters};
+use super::closest::Closest;
 use super::core::{Core, inside};
 use super::likely_parts::{ByParts, LikelyParts};
 use super::nearest_parts::NearestParts;
 use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_smooth::point_to_smooth;
+use super::segment::{Segment, closest_parameters};
 use crate::gjk::{DistanceLimits, Names, Nearby, RefinedBounds, refined};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;

@@ -1,8 +1,8 @@
 //! The parts of convex surfaces that can hold closest points: vertices, edges, rims, rulings, ellipsoids, faces.
 
-use super::closest::Segment;
 use super::core::Core;
 use super::polytope_distance::cuboid;
+use super::segment::Segment;
 use crate::pose::{Mat3, Vec3, turned, turned_back};
 use crate::primitive::{Feature, FeatureKind, HIGH_END, LOW_END, SmoothKind, plane_axes};
 
