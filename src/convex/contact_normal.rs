@@ -128,8 +128,13 @@ impl ContactPair<'_> {
     fn normal_at_touch(&self) -> Option<Vec3> {
         let tie = tolerance::GAP_TIE * self.precision.size;
         let rounding = tolerance::SUPPORT_ERROR * self.precision.size;
+        // The sets are farther apart along none.
+        let most = self.closest.distance + self.precision.error + rounding;
         let mut best: Option<(f64, Vec3)> = None;
         for candidate in self.local_normals() {
+            if best.is_some_and(|(gap, _)| gap + tie >= most) {
+                break;
+            }
             let [ahead, back] =
                 [candidate, -candidate].map(|n| (gap_of_primitives(self.r, self.s, &n), n));
             // Flat sets have gaps of opposite signs: which side r is on shows in less than a tie.

@@ -5,7 +5,9 @@ use super::core::{is_curved, is_smooth};
 use super::curved_contacts::{curved_contacts, first_curved_contact};
 use super::distance::PrimitiveDistance;
 use super::placed::{PlacedPrimitive, Precision};
-use super::polytope_contacts::{first_polytope_contact, polytope_contacts};
+use super::polytope_contacts::{
+    first_of_polytope_contacts, first_polytope_contact, polytope_contacts,
+};
 use crate::tolerance;
 
 /// The contacts of the pair (r, s) with the given closest points; the contact at these points comes first. Empty when the
@@ -55,5 +57,11 @@ fn first_of_all(
     measured: PrimitiveDistance,
     precision: &Precision,
 ) -> Option<Contact> {
-    contacts(r, s, &measured, precision).into_iter().next()
+    if is_curved(r, s) {
+        curved_contacts(r, s, &measured, precision)
+            .into_iter()
+            .next()
+    } else {
+        first_of_polytope_contacts(r, s, &measured.closest, precision)
+    }
 }

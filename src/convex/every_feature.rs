@@ -16,7 +16,7 @@ use crate::tolerance;
 pub struct Known {
     /// The distance is at most this.
     pub attained: f64,
-    /// A unit direction from B to A that parts the sets.
+    /// A unit direction from B to A that parts the sets, or along which they overlap by no more than a touch.
     pub direction: Option<Vec3>,
     /// A point of both, but for rounding.
     pub common: Option<Vec3>,
@@ -63,7 +63,7 @@ pub fn closest_of_all(
         Some(direction) => {
             // Edges that pass a face by this count as crossing it.
             let reach = known.attained + 2.0 * tolerance::INSIDE_DOUBT * pair.size;
-            let [low, high] = [a.extent_along(&direction).0, b.extent_along(&direction).1];
+            let [low, high] = [a.low_along(&direction), b.high_along(&direction)];
             of_a.set_reaching(a, &-direction, -(high + reach));
             of_b.set_reaching(b, &direction, low - reach);
         }

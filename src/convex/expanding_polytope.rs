@@ -426,7 +426,7 @@ mod tests {
             return false;
         };
         let found = found.to_vec();
-        let height = |normal: &Vec3| s.extent_along(normal).1 - r.extent_along(normal).0;
+        let height = |normal: &Vec3| s.high_along(normal) - r.low_along(normal);
         let normals = all_normals([&r, &s]);
         let heights: Vec<f64> = normals.iter().map(height).collect();
         let want = heights.iter().copied().fold(f64::INFINITY, f64::min);

@@ -248,7 +248,8 @@ impl<'a> PlacedPrimitive<'a> {
         // The point is turned once, not each normal.
         let turned = match self.vertices {
             Vertices::Moved { home, .. } => Some((home, self.seen(point))),
-            _ => None,
+            Vertices::Here(home) => Some((home, *point)),
+            Vertices::Shifted { .. } => None,
         };
         let height = move |face: usize| match &turned {
             Some((home, seen)) => {
@@ -310,24 +311,35 @@ impl<'a> PlacedPrimitive<'a> {
             })
     }
 
+    /// The least of `direction . x` over the primitive's vertices.
+    pub fn low_along(&self, direction: &Vec3) -> f64 {
+        -self.high_along(&-direction)
+    }
+
+    /// The largest of `direction . x` over the primitive's vertices.
+    pub fn high_along(&self, direction: &Vec3) -> f64 {
+        if self.form.is_some() {
+            return direction.dot(&self.extreme(direction).point);
+        }
+        let heights = self.vertices().iter().map(|v| direction.dot(v));
+        heights.fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// The extremes of `direction . x` over the primitive's vertices.
     pub fn extent_along(&self, direction: &Vec3) -> (f64, f64) {
-        if self.form.is_some() {
-            let [low, high] = [-direction, *direction].map(|d| self.extreme(&d).point);
-            return (direction.dot(&low), direction.dot(&high));
-        }
-        self.vertices()
-            .iter()
-            .map(|v| direction.dot(v))
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                (low.min(x), high.max(x))
-            })
+        (self.low_along(direction), self.high_along(direction))
     }
 }
 
 /// The signed gap of the projections along the unit vector `direction`, from B to A.
 pub fn gap_of_primitives(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &Vec3) -> f64 {
-    a.extent_along(direction).0 - b.extent_along(direction).1
+    a.low_along(direction) - b.high_along(direction)
+}
+
+/// The direction along a line, from B to A, in which the gap is larger, and that gap. `along` is a unit vector of either sign.
+pub fn larger_gap(a: &PlacedPrimitive, b: &PlacedPrimitive, along: &Vec3) -> (f64, Vec3) {
+    let [ahead, back] = [*along, -along].map(|n| (gap_of_primitives(a, b, &n), n));
+    if back.0 > ahead.0 { back } else { ahead }
 }
 
 /// The support function of the hull of the vertices, each named by its index.

@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 use super::closest::Closest;
 use super::contact::{Contact, ContactMode, deepest_first, mode_of};
 use super::contact_normal::ContactPair;
-use super::placed::{PlacedPrimitive, Precision};
+use super::placed::{PlacedPrimitive, Precision, gap_of_primitives};
 use super::segment::{Segment, closest_parameters};
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind, convex_hull_2d, plane_axes};
@@ -78,11 +78,46 @@ pub fn polytope_contacts(
         closest,
         precision,
     };
-    let Some(normal) = pair.normal() else {
-        return Vec::new();
+    match pair.normal() {
+        Some(normal) => contacts_along(&pair, normal),
+        None => Vec::new(),
+    }
+}
+
+/// The first of these.
+pub fn first_of_polytope_contacts(
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
+    closest: &Closest,
+    precision: &Precision,
+) -> Option<Contact> {
+    let pair = ContactPair {
+        r,
+        s,
+        closest,
+        precision,
     };
+    let normal = pair.normal()?;
+    if let Some(mode) = listed_mode(&pair) {
+        let (points, features) = (closest.points, closest.features);
+        let first = contact_between(points, features, normal, mode, precision);
+        // The sets overlap along the normal by as much as their deepest contact.
+        if gap_of_primitives(r, s, &normal) >= first.gap - 0.5 * precision.error {
+            return Some(first);
+        }
+    }
+    contacts_along(&pair, normal).into_iter().next()
+}
+
+fn contacts_along(pair: &ContactPair, normal: Vec3) -> Vec<Contact> {
+    let ContactPair {
+        r,
+        s,
+        closest,
+        precision,
+    } = *pair;
     let slack = tolerance::PARALLEL * precision.size;
-    let mode = listed_mode(&pair);
+    let mode = listed_mode(pair);
     // Common case: a single corner is nearest, and there is no other contact.
     if let Some(mode) = mode
         && closest.distance > precision.error
@@ -93,7 +128,7 @@ pub fn polytope_contacts(
     }
     let mut lists = LEVEL
         .into_iter()
-        .map(|level| contacts_within(level * precision.size, &pair, normal));
+        .map(|level| contacts_within(level * precision.size, pair, normal));
     if let Some(found) = lists.find(|found| !found.is_empty()) {
         return found;
     }
@@ -218,7 +253,7 @@ impl ContactList<'_> {
 
 /// Whether only one vertex is within `slack` of the farthest along a direction.
 fn has_lone_extreme(placed: &PlacedPrimitive, direction: &Vec3, slack: f64) -> bool {
-    let (_, farthest) = placed.extent_along(direction);
+    let farthest = placed.high_along(direction);
     let heights = placed.vertices().iter().map(|v| direction.dot(v));
     heights.filter(|height| *height >= farthest - slack).count() == 1
 }
@@ -241,7 +276,7 @@ struct SupportFeature<'a> {
 
 impl<'a> SupportFeature<'a> {
     fn new(placed: &PlacedPrimitive<'a>, direction: &Vec3, slack: f64) -> Self {
-        let (_, farthest) = placed.extent_along(direction);
+        let farthest = placed.high_along(direction);
         let level: Vec<u32> = (0..placed.vertex_count() as u32)
             .filter(|&i| direction.dot(&placed.vertex(i)) >= farthest - slack)
             .collect();

@@ -7,7 +7,7 @@ use super::cuboid_distance::segment_to_cuboid;
 use super::cuboids_closest::{CuboidsClosest, cuboids_closest};
 use super::every_feature::{DistanceScratch, Known, closest_of_all};
 use super::level_features::at_end;
-use super::placed::{PlacedPrimitive, Precision, gap_of_primitives};
+use super::placed::{PlacedPrimitive, Precision, gap_of_primitives, larger_gap};
 use super::point_to_polygon::point_to_polygon;
 use crate::gjk::{DistanceLimits, NearestCorners, gjk};
 use crate::pose::Vec3;
@@ -117,7 +117,7 @@ fn plane_gap(flat: &PlacedPrimitive, other: &PlacedPrimitive) -> f64 {
         return f64::NEG_INFINITY;
     }
     let normal = flat.normal(0);
-    gap_of_primitives(other, flat, &normal).max(gap_of_primitives(flat, other, &normal))
+    larger_gap(flat, other, &normal).0
 }
 
 /// The feature of a point; instead of an edge, its end vertex where the point is within `slack` of it.
@@ -239,9 +239,17 @@ fn bounded_closest(
         }
         attained = attained.min(found.distance);
     }
+    let direction = if bounds.lower > 0.0 {
+        Some(bounds.direction)
+    } else {
+        // Of sets that touch, the triangle that the search ends with is mostly on the boundary of their difference.
+        let (gap, direction) = larger_gap(a, b, &bounds.across);
+        let is_level = bounds.across != Vec3::zeros() && gap >= -tolerance::TOUCH_DEPTH * size;
+        is_level.then_some(direction)
+    };
     let known = Known {
         attained,
-        direction: (bounds.lower > 0.0).then_some(bounds.direction),
+        direction,
         common: common.map(|points| points[0]),
     };
     Ok(closest_of_all([a, b], &known, pair, scratch))
@@ -299,8 +307,7 @@ fn certificate(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest, direct
 /// The gap along the normal of the closest features, on the side where it is larger; negative where the sets overlap.
 fn gap_along_normal(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest) -> Option<f64> {
     let normal = feature_normal(a, b, found)?;
-    let gaps = [normal, -normal].map(|n| gap_of_primitives(a, b, &n));
-    Some(gaps[0].max(gaps[1]))
+    Some(larger_gap(a, b, &normal).0)
 }
 
 /// The normal that the features of a contact define by themselves, up to sign: that of a face, or the common

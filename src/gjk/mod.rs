@@ -74,6 +74,8 @@ pub struct Gjk {
     pub near: Option<[Vec3; 2]>,
     /// The closest points found, and the corners they lie between; `None` for sets that overlap.
     pub nearest: Option<NearestCorners>,
+    /// The unit direction, of either sign, across the triangle of the difference that the origin is nearly on; zero where there is none.
+    pub across: Vec3,
 }
 
 /// The limits at which a distance computation may stop early.
@@ -116,6 +118,9 @@ const MAX_STEPS: usize = 128;
 /// smaller differences of bounds, say nothing. A difference and a sum of products are off by 4 EPSILON.
 const VECTOR_ROUNDING: f64 = 4.0 * tolerance::EPSILON;
 
+/// The origin is nearly on a triangle that is no farther away than this, times the largest vector.
+const NEARLY_ON: f64 = 1e-6;
+
 /// Bounds the distance of A and B. Stops as soon as the limits allow. `start` is a guess of the direction from B to A, or zero.
 pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLimits) -> Gjk {
     with_widest(BoundsSearch {
@@ -157,7 +162,7 @@ impl<A: Support, B: Support> Work for BoundsSearch<'_, A, B> {
             largest_square = simplex.largest_square();
             v = match simplex.reduce() {
                 OriginPosition::Inside { margin, at } => {
-                    found.take_inside(margin, &at, largest_square);
+                    found.take_inside(&simplex, margin, &at, largest_square);
                     return found;
                 }
                 OriginPosition::Outside(point) => point,
@@ -167,7 +172,7 @@ impl<A: Support, B: Support> Work for BoundsSearch<'_, A, B> {
                 return found;
             }
             if found.upper <= VECTOR_ROUNDING * largest_square.sqrt() {
-                found.take_nearest(&simplex, &v);
+                found.take_nearest(&simplex, &v, largest_square);
                 return found;
             }
         }
@@ -193,7 +198,7 @@ impl<A: Support, B: Support> Work for BoundsSearch<'_, A, B> {
             simplex.push(corner);
             match simplex.reduce() {
                 OriginPosition::Inside { margin, at } => {
-                    found.take_inside(margin, &at, largest_square);
+                    found.take_inside(&simplex, margin, &at, largest_square);
                     return found;
                 }
                 OriginPosition::Outside(point) => {
@@ -212,7 +217,7 @@ impl<A: Support, B: Support> Work for BoundsSearch<'_, A, B> {
                 }
             }
         }
-        found.take_nearest(&simplex, &v);
+        found.take_nearest(&simplex, &v, largest_square);
         found
     }
 }
@@ -230,13 +235,14 @@ impl Gjk {
             common: Vec3::zeros(),
             near: None,
             nearest: None,
+            across: Vec3::zeros(),
         }
     }
 
     /// Takes the result of a tetrahedron that contains the origin. If its corners do not combine to the origin, it is flat and
     /// rounding decided its sides.
     #[inline(always)]
-    fn take_inside(&mut self, margin: f64, at: &Corner, largest_square: f64) {
+    fn take_inside(&mut self, simplex: &Simplex, margin: f64, at: &Corner, largest_square: f64) {
         let off = at.difference.norm();
         if off <= tolerance::CERTIFIED_GAP * largest_square.sqrt() {
             (self.overlap, self.upper) = (margin, 0.0);
@@ -245,14 +251,23 @@ impl Gjk {
         }
         self.upper = self.upper.min(off);
         self.attained = if self.near.is_some() { 0.0 } else { off };
+        self.take_across(simplex, margin, largest_square);
     }
 
     /// Takes the closest points that the search ends with.
     #[inline(always)]
-    fn take_nearest(&mut self, simplex: &Simplex, foot: &Vec3) {
+    fn take_nearest(&mut self, simplex: &Simplex, foot: &Vec3, largest_square: f64) {
         self.nearest = simplex.nearest(foot);
         if let Some(nearest) = &self.nearest {
             self.attained = nearest.difference.norm();
+            self.take_across(simplex, self.attained, largest_square);
+        }
+    }
+
+    #[inline(always)]
+    fn take_across(&mut self, simplex: &Simplex, distance: f64, largest_square: f64) {
+        if distance * distance <= NEARLY_ON * NEARLY_ON * largest_square {
+            self.across = simplex.across_nearest().unwrap_or_else(Vec3::zeros);
         }
     }
 

@@ -366,7 +366,8 @@ impl Simplex {
         let mut weights = [0.0; 4];
         let mut heights = [(0.0, 0.0); 4];
         let mut best: Option<(Vec3, ClosestFace)> = None;
-        for (i, j, k, opposite) in [(0, 1, 2, 3), (0, 3, 1, 2), (0, 2, 3, 1), (1, 3, 2, 0)] {
+        for [i, j, k] in FACES {
+            let opposite = 6 - i - j - k;
             let a = self.at(i);
             let normal = (self.at(j) - a).cross(&(self.at(k) - a));
             let towards = normal.dot(&(self.at(opposite) - a));
@@ -390,6 +391,24 @@ impl Simplex {
             let margin = heights.iter().map(height).fold(f64::INFINITY, f64::min);
             self.inside(margin, weights)
         })
+    }
+
+    /// The unit direction, of either sign, across the triangle nearest to the origin: of a tetrahedron that holds it, across the nearest face.
+    #[inline(never)]
+    pub fn across_nearest(&self) -> Option<Vec3> {
+        let faces: &[[usize; 3]] = match self.len {
+            3 => &FACES[..1],
+            4 => &FACES,
+            _ => return None,
+        };
+        let planes = faces.iter().filter_map(|&[i, j, k]| {
+            let a = self.at(i);
+            let normal = (self.at(j) - a).cross(&(self.at(k) - a));
+            let normal = normal.try_normalize(0.0)?;
+            Some((normal.dot(&a).abs(), normal))
+        });
+        let nearest = planes.min_by(|one, other| one.0.total_cmp(&other.0));
+        nearest.map(|(_, normal)| normal)
     }
 
     /// The result for an origin on the inner side of all four faces. `weights` combine the corners to about the origin.
@@ -446,6 +465,9 @@ impl Simplex {
         }
     }
 }
+
+/// The faces of a tetrahedron.
+const FACES: [[usize; 3]; 4] = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]];
 
 /// Each step reduces the error to the rounding of a quotient of volumes, so one suffices except for needles.
 const MAX_WEIGHT_STEPS: usize = 4;
