@@ -128,7 +128,7 @@ impl ContactPair<'_> {
     fn normal_at_touch(&self) -> Option<Vec3> {
         let tie = tolerance::GAP_TIE * self.precision.size;
         let rounding = tolerance::SUPPORT_ERROR * self.precision.size;
-        // The sets are farther apart along none.
+        // No direction has a larger gap, so that no candidate after one with this replaces it.
         let most = self.closest.distance + self.precision.error + rounding;
         let mut best: Option<(f64, Vec3)> = None;
         for candidate in self.local_normals() {

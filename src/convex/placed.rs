@@ -336,7 +336,7 @@ pub fn gap_of_primitives(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &V
     a.low_along(direction) - b.high_along(direction)
 }
 
-/// The direction along a line, from B to A, in which the gap is larger, and that gap. `along` is a unit vector of either sign.
+/// The larger of the two gaps along a line, and the unit direction from B to A that has it. `along` is a unit vector of either sign.
 pub fn larger_gap(a: &PlacedPrimitive, b: &PlacedPrimitive, along: &Vec3) -> (f64, Vec3) {
     let [ahead, back] = [*along, -along].map(|n| (gap_of_primitives(a, b, &n), n));
     if back.0 > ahead.0 { back } else { ahead }

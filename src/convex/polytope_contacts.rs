@@ -84,7 +84,7 @@ pub fn polytope_contacts(
     }
 }
 
-/// The first of these.
+/// The first of these, found without the others where none of them can be deeper.
 pub fn first_of_polytope_contacts(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
@@ -101,7 +101,7 @@ pub fn first_of_polytope_contacts(
     if let Some(mode) = listed_mode(&pair) {
         let (points, features) = (closest.points, closest.features);
         let first = contact_between(points, features, normal, mode, precision);
-        // The sets overlap along the normal by as much as their deepest contact.
+        // No contact is deeper than the sets overlap along the normal.
         if gap_of_primitives(r, s, &normal) >= first.gap - 0.5 * precision.error {
             return Some(first);
         }
