@@ -23,7 +23,7 @@ const MAX_EDGE_PAIRS: usize = 4096;
 const MIN_AGREEMENT: f64 = 1.0 - 1e-6;
 
 /// A list of usually few directions.
-type Directions = SmallVec<[Vec3; 16]>;
+pub type Directions = SmallVec<[Vec3; 16]>;
 
 /// A primitive pair with its closest points, in a common frame.
 #[derive(Clone, Copy)]
@@ -255,14 +255,14 @@ fn depth_below(placed: &PlacedPrimitive, point: &Vec3, planar: bool) -> f64 {
 }
 
 /// The face normals and edge directions of the features that hold a point.
-struct LocalFeatures {
-    normals: Directions,
-    directions: Directions,
-    is_flat: bool,
+pub struct LocalFeatures {
+    pub normals: Directions,
+    pub directions: Directions,
+    pub is_flat: bool,
 }
 
 impl LocalFeatures {
-    fn around(placed: &PlacedPrimitive, point: &Vec3, near: f64) -> Self {
+    pub fn around(placed: &PlacedPrimitive, point: &Vec3, near: f64) -> Self {
         let faces: SmallVec<[usize; 16]> = placed.faces_at(point, near).collect();
         let mut directions = Directions::new();
         for edge in edges_of(placed, &faces) {

@@ -6,7 +6,8 @@ use super::core::{Core, is_smooth};
 use super::distance::PrimitiveDistance;
 use super::placed::{PlacedPrimitive, Precision};
 use super::polytope_contacts::{first_polytope_contact, polytope_contacts};
-use super::smooth_distance::{feature_at, refined_cores};
+use super::smooth_distance::feature_at;
+use super::smooth_touch::smooth_touch;
 use crate::gjk::Support;
 use crate::pose::Vec3;
 use crate::primitive::FeatureKind;
@@ -100,13 +101,13 @@ fn smooth_contact(
         for (side, placed) in [r, s].into_iter().enumerate() {
             if placed.shape.smooth().is_none() {
                 let slack = tolerance::ON_FEATURE * precision.size;
-                let here = feature_at(placed, &touch.2[side], slack);
+                let here = feature_at(placed, &touch.points[side], slack);
                 if here.kind != FeatureKind::Interior {
                     features[side] = here;
                 }
             }
         }
-        touch
+        (touch.normal, touch.gap, touch.points)
     };
     Some(Contact {
         points,
@@ -119,7 +120,7 @@ fn smooth_contact(
 }
 
 /// Cores that touch have no contact where the radii are more than this many times larger than they. All lengths below which cores touch
-/// are parts of the pair's size, radii included, and the steps to their normal shift them by [`LAST_SHIFT`] of it: a tenth of the cores
+/// are parts of the pair's size, radii included, and the steps to their normal shift them by 1e-4 of it: a tenth of the cores
 /// here. A larger value gives contacts whose normals are off, of a ball a million times as large as what is in its centre by 30
 /// degrees; a smaller one leaves out some that are right.
 const MAX_RADII: f64 = 1e3;
@@ -134,56 +135,4 @@ fn are_dwarfed(r: &PlacedPrimitive, s: &PlacedPrimitive) -> bool {
         along(Vec3::x()).max(along(Vec3::y())).max(along(Vec3::z()))
     });
     radii > MAX_RADII * widths[0].max(widths[1])
-}
-
-/// At most 40 steps towards the normal of touching cores, four of them at larger shifts than [`LAST_SHIFT`]. With fewer, more
-/// normals stay off; their gaps are safe all the same.
-const MAX_NORMAL_STEPS: i32 = 40;
-
-/// How far, in L, touching cores are moved apart in the last steps. Less brings the steps to the normal sooner: at a sphere of
-/// radius R each divides its error by about (R + shift) / shift. More leaves less rounding in the direction.
-const LAST_SHIFT: f64 = 1e-4;
-
-/// The normal of cores that touch or overlap slightly, with the gap along it and the points there.
-///
-/// If the cores are moved apart a little along the normal, that normal is also the direction between their closest points. It
-/// is found by moving them apart along the last guess, by less each time. Even if this does not converge, the gap is that of
-/// the support points along the returned direction.
-fn smooth_touch(
-    r: &PlacedPrimitive,
-    s: &PlacedPrimitive,
-    closest: &Closest,
-    direction: Vec3,
-    precision: &Precision,
-) -> Option<(Vec3, f64, [Vec3; 2])> {
-    let apart = r.middle() - s.middle();
-    let guesses = [direction, closest.points[0] - closest.points[1], apart];
-    let mut normal = guesses
-        .iter()
-        .find_map(|guess| guess.try_normalize(1e-3 * precision.error))
-        .unwrap_or_else(Vec3::x);
-    // A known direction means that the cores do not overlap, and is a good guess.
-    let mut shift = if direction == Vec3::zeros() {
-        1.0
-    } else {
-        LAST_SHIFT
-    };
-    let mut points = closest.points;
-    for _ in 0..MAX_NORMAL_STEPS {
-        let by = normal * (shift * precision.size);
-        let found = refined_cores(r, s, by, by, precision);
-        if found.direction == Vec3::zeros() {
-            return None;
-        }
-        points = [found.points[0] - by, found.points[1]];
-        let turned = (found.direction - normal).norm();
-        normal = found.direction.normalize();
-        if shift <= LAST_SHIFT && turned <= tolerance::NORMAL_STEP {
-            break;
-        }
-        shift = (0.1 * shift).max(LAST_SHIFT);
-    }
-    let [nearest, farthest] = [Core::of(r).support(&-normal), Core::of(s).support(&normal)];
-    let gap = normal.dot(&(nearest - farthest));
-    (gap >= -tolerance::JUST_INSIDE * precision.size).then_some((normal, gap, points))
 }

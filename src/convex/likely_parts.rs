@@ -14,7 +14,7 @@ use super::segment::{Segment, closest_parameters};
 use crate::gjk::{DistanceLimits, Names, Nearby, Support};
 use crate::lanes::{Instructions, Work};
 use crate::pose::{Vec3, turned, turned_back};
-use crate::primitive::{Cuboid, FeatureKind, HIGH_END, LOW_END, SmoothKind};
+use crate::primitive::{Cuboid, HIGH_END, LOW_END, SmoothKind};
 
 /// How often each core's point nearest to the other's is taken. With 1 the guess is right for a tenth fewer pairs, with 3 for a twentieth
 /// more, which takes longer than it spares.
@@ -47,6 +47,9 @@ pub enum ByParts {
     Within([Vec3; 2]),
     /// The cores meet: a point of both, and a ball around it that is in one of them.
     Meet { point: Vec3, depth: f64 },
+    /// Nothing, but the cores are about to touch or do: points of them that are next to each other, and a guess of the unit direction from B to
+    /// A, or zero.
+    Close { points: [Vec3; 2], direction: Vec3 },
 }
 
 impl Work for LikelyParts<'_> {
@@ -63,14 +66,18 @@ impl Work for LikelyParts<'_> {
         if way.norm() <= self.limits.enough {
             return Some(ByParts::Within(points));
         }
-        let direction = way.try_normalize(0.0)?;
+        let direction = way.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+        let close = ByParts::Close { points, direction };
+        if direction == Vec3::zeros() {
+            return Some(close);
+        }
         let supports = self.supports(&direction);
         let gap = Self::gap_along(&direction, &supports);
         if gap > self.limits.cutoff {
             return Some(ByParts::Beyond { direction, gap });
         }
         if gap <= self.least {
-            return self.meeting_at(&supports, &inner);
+            return Some(self.meeting_at(&supports, &inner).unwrap_or(close));
         }
         for side in 0..2 {
             // The other's point was its centre until now.
@@ -111,7 +118,9 @@ impl LikelyParts<'_> {
             match inner[side].nearest(&point) {
                 Nearest::Unknown => (),
                 Nearest::At(there, on) => (points[side], names[side]) = (there, on),
-                Nearest::Inside(depth) => return ControlFlow::Break(self.meeting(point, depth)),
+                Nearest::Inside(depth) => {
+                    return ControlFlow::Break(Some(self.meeting_or_close(point, depth)));
+                }
             }
         }
         ControlFlow::Continue((points, names))
@@ -136,15 +145,22 @@ impl LikelyParts<'_> {
         (0..2).find_map(|side| {
             let point = supports[1 - side];
             match inner[side].nearest(&point) {
-                Nearest::Inside(depth) => self.meeting(point, depth),
+                Nearest::Inside(depth) if depth > self.deep => Some(ByParts::Meet { point, depth }),
                 _ => None,
             }
         })
     }
 
+    /// What a point of one core proves that is inside the other, so deep.
     #[inline(always)]
-    fn meeting(&self, point: Vec3, depth: f64) -> Option<ByParts> {
-        (depth > self.deep).then_some(ByParts::Meet { point, depth })
+    fn meeting_or_close(&self, point: Vec3, depth: f64) -> ByParts {
+        if depth > self.deep {
+            return ByParts::Meet { point, depth };
+        }
+        ByParts::Close {
+            points: [point; 2],
+            direction: Vec3::zeros(),
+        }
     }
 
     /// The support points of A and B towards each other, for a direction from B to A.
@@ -157,6 +173,15 @@ impl LikelyParts<'_> {
     #[inline(always)]
     fn gap_along(direction: &Vec3, supports: &[Vec3; 2]) -> f64 {
         direction.dot(&(supports[0] - supports[1]))
+    }
+}
+
+/// Whether a core holds a point, up to a distance of `slack`; `None` where that has no closed form.
+pub fn holds(core: &Core, point: &Vec3, slack: f64) -> Option<bool> {
+    match Inner::of(core)?.nearest(point) {
+        Nearest::Inside(_) => Some(true),
+        Nearest::At(there, _) => Some((there - point).norm() <= slack),
+        Nearest::Unknown => None,
     }
 }
 
@@ -240,18 +265,8 @@ fn nearest_of_cuboid(point: &Vec3, placed: &PlacedPrimitive, cuboid: &Cuboid) ->
     let Some(way) = way_from_cuboid(&seen, cuboid) else {
         return Nearest::Inside((cuboid.half - seen.abs()).min());
     };
-    let feature = cuboid.feature_towards(&seen);
-    let shape = placed.shape;
-    let names = match feature.kind {
-        FeatureKind::Vertex => Names::one(feature.index),
-        FeatureKind::Edge => {
-            let [start, end] = shape.edges[feature.index as usize];
-            Names::two(start, end)
-        }
-        _ => {
-            let ring = &shape.faces[feature.index as usize].vertices;
-            Names::three([ring[0], ring[1], ring[2]])
-        }
+    let Some(names) = placed.names_of(cuboid.feature_towards(&seen)) else {
+        return Nearest::Unknown;
     };
     let way = placed.turned(&turned(&cuboid.axes, &way));
     Nearest::At(point - way, names)

@@ -40,8 +40,10 @@ mod polytope_distance;
 mod polytope_penetration;
 mod segment;
 mod smooth_distance;
+mod smooth_touch;
 mod surface_part;
 mod sweep;
+mod touching_parts;
 mod way;
 mod ways_out;
 

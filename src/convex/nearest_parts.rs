@@ -22,6 +22,9 @@ pub struct NearestParts<'a> {
     names: [Names; 2],
     parts: [SurfacePart; 2],
     accepted: f64,
+    /// Whether what the points are off one another across the direction has to be accepted too. The distance of cores that are apart hardly
+    /// shows it, and cores that touch have nothing else.
+    is_at_touch: bool,
 }
 
 impl<'a> NearestParts<'a> {
@@ -34,7 +37,18 @@ impl<'a> NearestParts<'a> {
             names,
             parts: [part(0)?, part(1)?],
             accepted,
+            is_at_touch: false,
         })
+    }
+
+    /// The same of cores that touch or overlap by a little: what [`Self::solve`] finds has a signed gap, and its direction no other around
+    /// it that has a larger one, to first order.
+    #[inline(always)]
+    pub fn at_touch(self) -> Self {
+        Self {
+            is_at_touch: true,
+            ..self
+        }
     }
 
     /// The closest points, from a guess of the unit direction from B to A; `None` unless a direction certifies them.
@@ -246,17 +260,27 @@ impl<'a> NearestParts<'a> {
     /// Whether the remaining offset across the direction lengthens the distance by no more than the accepted gap.
     #[inline(always)]
     fn is_within_accepted(&self, off: &Vec3, apart: f64) -> bool {
-        off.norm_squared() <= self.accepted * apart.abs()
+        let most = if self.is_at_touch {
+            self.accepted
+        } else {
+            apart.abs()
+        };
+        off.norm_squared() <= self.accepted * most
     }
 
     /// The points, if the direction certifies their distance to within the accepted gap. Points nearer to each other than that by more
-    /// are not points of the cores.
+    /// are not points of the cores. At touch, if they are that near to where the direction has its gap.
     #[inline(always)]
     fn accept(&self, direction: &Vec3, points: [Vec3; 2]) -> Option<Nearby> {
         let [a, b] = self.cores;
         let lower = direction.dot(&(a.support(&-direction) - b.support(direction)));
-        let upper = (points[0] - points[1]).norm();
-        ((upper - lower).abs() <= self.accepted).then_some(Nearby {
+        let way = points[0] - points[1];
+        let off = if self.is_at_touch {
+            (way - direction * lower).norm()
+        } else {
+            (way.norm() - lower).abs()
+        };
+        (off <= self.accepted).then_some(Nearby {
             lower,
             direction: *direction,
             points,
@@ -296,7 +320,7 @@ fn turned_by(direction: &Vec3, step: &Vec3) -> Option<Vec3> {
 /// The unit direction that satisfies two constraints that are not parallel; of two solutions the one nearer to a guess. `None` where there
 /// is none.
 #[inline(always)]
-fn direction_on_both(one: (Vec3, f64), other: (Vec3, f64), guess: &Vec3) -> Option<Vec3> {
+pub fn direction_on_both(one: (Vec3, f64), other: (Vec3, f64), guess: &Vec3) -> Option<Vec3> {
     let ((g, s), (h, t)) = (one, other);
     let across = g.cross(&h);
     let square = across.norm_squared();

@@ -2,9 +2,9 @@
 
 use std::cell::{Cell, OnceCell};
 
-use crate::gjk::{Extreme, PointCloud, Support};
+use crate::gjk::{Extreme, Names, PointCloud, Support};
 use crate::pose::{Mat3, Pose, Vec3, turned, turned_back};
-use crate::primitive::{Convex, Face, Feature, Form, Incidence, Primitive};
+use crate::primitive::{Convex, Face, Feature, FeatureKind, Form, Incidence, Primitive};
 
 /// The size and error of a pair of bodies, and whether it is planar.
 #[derive(Clone, Copy, Debug)]
@@ -190,6 +190,24 @@ impl<'a> PlacedPrimitive<'a> {
                 face.map(|face| Feature::face(face as u32))
             }
         }
+    }
+
+    /// Names of vertices that a feature lies between, by which [`Self::feature_of`] knows it; `None` for what is no feature of a polytope.
+    #[inline(always)]
+    pub fn names_of(&self, feature: Feature) -> Option<Names> {
+        let index = feature.index as usize;
+        Some(match feature.kind {
+            FeatureKind::Vertex => Names::one(feature.index),
+            FeatureKind::Edge => {
+                let [start, end] = self.shape.edges[index];
+                Names::two(start, end)
+            }
+            FeatureKind::Face => {
+                let ring = &self.shape.faces[index].vertices;
+                Names::three([ring[0], ring[1], ring[2]])
+            }
+            FeatureKind::Interior | FeatureKind::Surface => return None,
+        })
     }
 
     /// The mean of the vertices, up to rounding.

@@ -4,11 +4,12 @@ use super::beside_cylinder::{beside_cylinder, is_cylinder};
 use super::beyond::Beyond;
 use super::closest::Closest;
 use super::core::{Core, inside};
-use super::likely_parts::{ByParts, LikelyParts};
+use super::likely_parts::{ByParts, LikelyParts, holds};
 use super::nearest_parts::NearestParts;
 use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_smooth::point_to_smooth;
 use super::segment::{Segment, closest_parameters};
+use super::touching_parts::TouchingParts;
 use crate::gjk::{DistanceLimits, Names, Nearby, RefinedBounds, refined};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
@@ -35,6 +36,11 @@ pub fn smooth_closest(
     if let Some(found) = between_parallel([a, b], [&core_a, &core_b], pair) {
         return Ok(found);
     }
+    let search = || {
+        // A start that depends on the two primitives alone, so that the answer does too.
+        let start = a.middle() - b.middle();
+        refined_pair(&core_a, &core_b, start, pair, limits)
+    };
     let found = match likely([&core_a, &core_b], pair, limits) {
         Some(ByParts::Beyond { direction, gap }) => return Err(Beyond { direction, gap }),
         Some(ByParts::Within(points)) => return Ok(near_enough(points, Vec3::zeros())),
@@ -46,11 +52,10 @@ pub fn smooth_closest(
             return Ok((closest, Vec3::zeros()));
         }
         Some(ByParts::Near(near)) => RefinedBounds::of_nearby(near),
-        None => {
-            // A start that depends on the two primitives alone, so that the answer does too.
-            let start = a.middle() - b.middle();
-            refined_pair(&core_a, &core_b, start, pair, limits)
+        Some(ByParts::Close { points, direction }) => {
+            touching([&core_a, &core_b], points, direction, pair).unwrap_or_else(search)
         }
+        None => search(),
     };
     if found.lower > limits.cutoff {
         return Err(Beyond {
@@ -93,6 +98,41 @@ fn likely(cores: [&Core; 2], pair: &Precision, limits: DistanceLimits) -> Option
         least,
         deep: tolerance::JUST_INSIDE * pair.size,
         limits,
+    })
+}
+
+/// The bounds of cores that touch or are next to each other at two points; `None` where they are not found, or the cores overlap by more than
+/// [`tolerance::JUST_INSIDE`] L. The direction of cores that touch is the contact's normal.
+#[inline(never)]
+fn touching(
+    cores: [&Core; 2],
+    points: [Vec3; 2],
+    direction: Vec3,
+    pair: &Precision,
+) -> Option<RefinedBounds> {
+    let parts = TouchingParts::new(cores, points, [Feature::interior(); 2], pair.size);
+    let near = parts.touch(direction).1?;
+    let rounding = tolerance::SUPPORT_ERROR * pair.size;
+    if near.lower > rounding {
+        return Some(RefinedBounds::of_nearby(near));
+    }
+    if near.lower < -tolerance::JUST_INSIDE * pair.size {
+        return None;
+    }
+    let touch = RefinedBounds {
+        lower: 0.0,
+        ..RefinedBounds::of_nearby(near)
+    };
+    if near.lower >= -rounding {
+        return Some(touch);
+    }
+    // Where the surfaces have crossed, what is between them is in both.
+    let middle = 0.5 * (near.points[0] + near.points[1]);
+    let is_held = |core: &&Core| holds(core, &middle, rounding) == Some(true);
+    cores.iter().all(is_held).then_some(RefinedBounds {
+        upper: 0.0,
+        points: [middle; 2],
+        ..touch
     })
 }
 
@@ -353,6 +393,7 @@ mod tests {
                             assert!(over > -1e-14 * pair.size, "{over}");
                         }
                     }
+                    ByParts::Close { .. } => guessed -= usize::from(is_clear && kinds[1] != 5),
                     ByParts::Beyond { .. } | ByParts::Within(_) => panic!("nothing is asked"),
                 }
             }

@@ -12,6 +12,7 @@ use cstk::robot::JointKind;
 use helpers::closed_sets::Set::{
     self, Ball, Capsule, Cone, Cuboid, Cylinder, Ellipsoid, Points, Sheet, Supported,
 };
+use helpers::closed_sets::turn;
 use helpers::random::Random;
 use helpers::robots::{against_with, environment, link, robot, space};
 
@@ -70,23 +71,6 @@ fn any_set(random: &mut Random, largest: f64, spread: f64) -> Set {
         4 => Capsule(l.x, l.y),
         5 => Ball(l.x),
         _ => smooth_set(random, largest, spread),
-    }
-}
-
-/// Turns `from` to `to`, both of length 1, by the shortest way.
-fn turn(from: &Vec3, to: &Vec3) -> Mat3 {
-    let cross = from.cross(to);
-    match cross.try_normalize(1e-300) {
-        Some(axis) => rotation_about(&axis, cross.norm().atan2(from.dot(to))),
-        None if from.dot(to) > 0.0 => Mat3::identity(),
-        None => {
-            let side = if from.x.abs() < 0.6 {
-                Vec3::x()
-            } else {
-                Vec3::y()
-            };
-            rotation_about(&from.cross(&side).normalize(), std::f64::consts::PI)
-        }
     }
 }
 

@@ -25,4 +25,5 @@ mod shape_bodies;
 mod shapes;
 mod slivers;
 mod smooth_shapes;
+mod touching_curves;
 mod winding;

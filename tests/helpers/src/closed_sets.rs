@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use cstk::body::{Body, BodyBuilder};
 use cstk::error::Result;
-use cstk::pose::{Pose, Vec3};
+use cstk::pose::{Mat3, Pose, Vec3, rotation_about};
 use cstk::primitive::SupportFunction;
 
 use super::random::Random;
@@ -233,4 +233,21 @@ fn face(points: &[Vec3], random: &mut Random) -> Option<(Vec3, Vec3)> {
         }
     }
     None
+}
+
+/// Turns `from` to `to`, both of length 1, by the shortest way.
+pub fn turn(from: &Vec3, to: &Vec3) -> Mat3 {
+    let cross = from.cross(to);
+    match cross.try_normalize(1e-300) {
+        Some(axis) => rotation_about(&axis, cross.norm().atan2(from.dot(to))),
+        None if from.dot(to) > 0.0 => Mat3::identity(),
+        None => {
+            let side = if from.x.abs() < 0.6 {
+                Vec3::x()
+            } else {
+                Vec3::y()
+            };
+            rotation_about(&from.cross(&side).normalize(), std::f64::consts::PI)
+        }
+    }
 }

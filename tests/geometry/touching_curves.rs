@@ -1,0 +1,245 @@
+//! Contacts of curved shapes that touch or overlap by a little. Their normal is the direction of the largest signed gap: known where two
+//! boundary points face one another on a surface, else compared with all directions around it.
+
+use cstk::pose::{Pose, Vec3, rotation_about};
+use cstk::query::{ContactRecord, QueryContext};
+
+use helpers::closed_sets::Set::{
+    self, Ball, Capsule, Cone, Cuboid, Cylinder, Ellipsoid, Points, Sheet,
+};
+use helpers::closed_sets::{Facing, turn};
+use helpers::random::Random;
+
+/// Two sets in one frame, and both in another one.
+struct Pair {
+    sets: [Set; 2],
+    /// Of B in A's frame.
+    pose: Pose,
+    common: Pose,
+    /// The largest coordinate.
+    size: f64,
+}
+
+impl Pair {
+    /// B stands `gap` off A, points and normals of boundaries opposed.
+    fn facing(random: &mut Random, sets: [Set; 2], [on_a, on_b]: [Facing; 2], gap: f64) -> Self {
+        let spin = rotation_about(&on_a.normal, random.within(-3.0, 3.0));
+        let rotation = spin * turn(&on_b.normal, &-on_a.normal);
+        let translation = on_a.point + on_a.normal * gap - rotation * on_b.point;
+        Self {
+            size: sets[0].size().max(translation.norm() + sets[1].size()),
+            sets,
+            pose: Pose {
+                rotation,
+                translation,
+            },
+            common: random.pose(1.0),
+        }
+    }
+
+    /// The signed gap along a direction from B to A.
+    fn gap(&self, n: &Vec3) -> f64 {
+        let turned = self.pose.rotation.transpose() * n;
+        -n.dot(&self.pose.translation) - self.sets[0].reach(&-n) - self.sets[1].reach(&turned)
+    }
+
+    /// The distance, and the contact in A's frame.
+    fn asked(&self) -> (f64, Option<ContactRecord>) {
+        let [a, b] = [self.sets[0].body(), self.sets[1].body()];
+        let there = self.common.compose(&self.pose);
+        let mut context = QueryContext::new();
+        let found = context
+            .pair_distance((&a, &self.common), (&b, &there), f64::INFINITY)
+            .unwrap();
+        let back = self.common.inverse();
+        let contact = found.contact.map(|contact| ContactRecord {
+            normal: back.rotation * contact.normal,
+            points: contact.points.map(|point| back.transform_point(&point)),
+            ..contact
+        });
+        (found.distance, contact)
+    }
+}
+
+fn lengths(random: &mut Random, decades: f64) -> Vec3 {
+    Vec3::from_fn(|_, _| 10f64.powf(-random.within(0.0, decades)))
+}
+
+/// A curved set and a point on a smooth part of its surface, away from rims and the apex.
+fn curved(random: &mut Random, decades: f64) -> (Set, Facing) {
+    let l = lengths(random, decades);
+    let angle = random.within(-3.0, 3.0);
+    let around = |radius: f64, z: f64| Vec3::new(radius * angle.cos(), radius * angle.sin(), z);
+    let share = random.within(0.1, 0.9);
+    let facing = |point, normal: Vec3| Facing {
+        point,
+        normal: normal.normalize(),
+    };
+    match random.below(3) {
+        0 => (
+            Cylinder(l.x, l.y),
+            facing(around(l.x, (2.0 * share - 1.0) * l.y), around(1.0, 0.0)),
+        ),
+        1 => (
+            Cone(l.x, l.y),
+            facing(
+                around(l.x * (1.0 - share), l.y * (share - 0.5)),
+                around(l.y, l.x),
+            ),
+        ),
+        _ => {
+            let set = Ellipsoid(l);
+            let normal = random.unit();
+            (set.clone(), facing(set.farthest(&normal), normal))
+        }
+    }
+}
+
+fn any_set(random: &mut Random, kind: usize, decades: f64) -> Set {
+    let l = lengths(random, decades);
+    match kind {
+        0 => Cuboid(l),
+        1 => Cylinder(l.x, l.y),
+        2 => Cone(l.x, l.y),
+        3 => Ellipsoid(l),
+        4 => Ball(l.x),
+        5 => Capsule(l.x, l.y),
+        6 => {
+            let corners = 3 + random.below(6);
+            Sheet(random.polygon(corners, l.x))
+        }
+        7 => Points(random.points(2, 1.0)),
+        _ => Points(random.points(10, 1.0)),
+    }
+}
+
+/// Whether a length is the true one, or 0 where that is within the error of smooth distances.
+fn is_told(told: f64, truth: f64, size: f64) -> bool {
+    (told - truth).abs() <= 1e-13 * size || told == 0.0 && truth.abs() <= 6e-11 * size
+}
+
+fn any_gap(random: &mut Random) -> f64 {
+    let gap = 10f64.powf(random.within(-17.0, -7.0));
+    [gap, -gap, 0.0][random.below(3)]
+}
+
+/// What does not hold, by what it is: all of a run is counted, not only the first.
+#[derive(Default)]
+struct Faults(Vec<(&'static str, String)>);
+
+impl Faults {
+    fn check(&mut self, holds: bool, what: &'static str, of: impl FnOnce() -> String) {
+        if !holds {
+            self.0.push((what, of()));
+        }
+    }
+
+    fn none(self) {
+        let mut kinds: Vec<&str> = self.0.iter().map(|(what, _)| *what).collect();
+        kinds.sort_unstable();
+        for kind in kinds.chunk_by(|one, other| one == other) {
+            let first = self.0.iter().find(|(what, _)| *what == kind[0]);
+            println!("{} times: {} {}", kind.len(), kind[0], first.unwrap().1);
+        }
+        assert!(self.0.is_empty());
+    }
+}
+
+#[test]
+fn contacts_on_smooth_surfaces_have_the_normal_of_the_surface() {
+    let random = &mut Random::new(91);
+    let mut faults = Faults::default();
+    let mut worst = 0.0f64;
+    for round in 0..24_000 {
+        let decades = [0.3, 1.0][round % 2];
+        let (a, on_a) = curved(random, decades);
+        let b = any_set(random, round / 2 % 9, decades);
+        let on_b = b.facing(random);
+        let (normal, gap) = (-on_a.normal, any_gap(random));
+        let pair = Pair::facing(random, [a, b], [on_a, on_b], gap);
+        let (distance, contact) = pair.asked();
+        let text = || {
+            format!(
+                "{round}: {gap:e} {:?} {:?} {contact:?}",
+                pair.sets, pair.pose
+            )
+        };
+        faults.check(is_told(distance, gap.max(0.0), pair.size), "distance", text);
+        let Some(contact) = contact else {
+            faults.check(false, "no contact", text);
+            continue;
+        };
+        let off = (contact.normal - normal).norm();
+        // Of rounded shapes the normal is that of cores apart, which a certificate of their distance D holds to sqrt(2 CERTIFIED_GAP L / D).
+        let allowed = match pair.sets[1] {
+            Ball(radius) | Capsule(radius, _) => (7.2e-15 * pair.size / radius).sqrt(),
+            _ => 1e-10,
+        };
+        faults.check(off <= allowed, "normal", || {
+            format!("{off:e} {allowed:e} {}", text())
+        });
+        faults.check(
+            is_told(contact.clearance, gap, pair.size),
+            "clearance",
+            text,
+        );
+        worst = worst.max(off);
+    }
+    println!("normals are {worst:e} off at most");
+    faults.none();
+}
+
+/// Rims, edges and corners that are a little inside: no direction around the normal has a larger gap, nor has that of the points that face.
+#[test]
+fn contacts_have_the_largest_gap_there_is() {
+    let random = &mut Random::new(92);
+    let mut faults = Faults::default();
+    let mut overlaps = 0;
+    for round in 0..24_000 {
+        let decades = [0.3, 1.0][round % 2];
+        let a = any_set(random, 1 + round % 3, decades);
+        let b = any_set(random, round / 3 % 9, decades);
+        let (on_a, on_b) = (a.facing(random), b.facing(random));
+        let (facing, gap) = (-on_a.normal, any_gap(random));
+        let mut pair = Pair::facing(random, [a, b], [on_a, on_b], gap);
+        let aside = 10f64.powf(random.within(-11.0, -6.0));
+        pair.pose.translation += random.unit() * aside * pair.size;
+        let (distance, contact) = pair.asked();
+        let before = pair.gap(&facing);
+        let text = || {
+            format!(
+                "{round}: {before:e} {:?} {:?} {contact:?}",
+                pair.sets, pair.pose
+            )
+        };
+        let Some(contact) = contact else {
+            // Some are deeper than a contact may be.
+            let is_shallow = before > -0.3e-6 * pair.size;
+            faults.check(!is_shallow, "no contact", text);
+            continue;
+        };
+        overlaps += usize::from(contact.clearance < 0.0);
+        let own = pair.gap(&contact.normal);
+        let text = || format!("{own:e} {}", text());
+        faults.check(
+            is_told(contact.clearance, own, pair.size),
+            "clearance",
+            text,
+        );
+        faults.check(is_told(distance, own.max(0.0), pair.size), "distance", text);
+        let mut directions = vec![facing];
+        for power in 1..10 {
+            for _ in 0..20 {
+                let turned = contact.normal + random.unit() * 10f64.powi(-power);
+                directions.push(turned.normalize());
+            }
+        }
+        let gaps = directions.iter().map(|direction| pair.gap(direction));
+        let most = gaps.fold(f64::NEG_INFINITY, f64::max);
+        faults.check(most <= own + 1e-12 * pair.size, "gap", || {
+            format!("{most:e} {}", text())
+        });
+    }
+    println!("{overlaps} overlap");
+    faults.none();
+}
