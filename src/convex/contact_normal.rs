@@ -256,9 +256,9 @@ fn depth_below(placed: &PlacedPrimitive, point: &Vec3, planar: bool) -> f64 {
 
 /// The face normals and edge directions of the features that hold a point.
 pub struct LocalFeatures {
-    pub normals: Directions,
+    normals: Directions,
     pub directions: Directions,
-    pub is_flat: bool,
+    is_flat: bool,
 }
 
 impl LocalFeatures {

@@ -29,6 +29,8 @@ pub struct LikelyParts<'a> {
     pub least: f64,
     /// How deep a point has to be inside to prove that the cores meet.
     pub deep: f64,
+    /// Cores whose gap is at most this may be about to touch.
+    pub close: f64,
     /// The distance is not asked for where it is known to be at most `enough`, or more than `cutoff`.
     pub limits: DistanceLimits,
 }
@@ -88,7 +90,10 @@ impl Work for LikelyParts<'_> {
             }
         }
         let parts = NearestParts::new(self.cores, names, self.accepted)?;
-        Some(ByParts::Near(parts.solve(&direction)?))
+        match parts.solve(&direction) {
+            Some(near) => Some(ByParts::Near(near)),
+            None => (gap <= self.close).then_some(close),
+        }
     }
 }
 

@@ -97,6 +97,7 @@ fn likely(cores: [&Core; 2], pair: &Precision, limits: DistanceLimits) -> Option
         accepted: tolerance::CERTIFIED_GAP * pair.size,
         least,
         deep: tolerance::JUST_INSIDE * pair.size,
+        close: tolerance::MIN_SMOOTH_NORMAL_DISTANCE * pair.size,
         limits,
     })
 }
@@ -126,12 +127,16 @@ fn touching(
     if near.lower >= -rounding {
         return Some(touch);
     }
-    // Where the surfaces have crossed, what is between them is in both.
-    let middle = 0.5 * (near.points[0] + near.points[1]);
-    let is_held = |core: &&Core| holds(core, &middle, rounding) == Some(true);
-    cores.iter().all(is_held).then_some(RefinedBounds {
+    // Where surfaces have crossed, what is between them is in both, and at an edge, a rim or an apex that itself.
+    let [p, q] = near.points;
+    let is_common = |point: &Vec3| {
+        let is_held = |core: &&Core| holds(core, point, rounding) == Some(true);
+        cores.iter().all(is_held)
+    };
+    let common = [0.5 * (p + q), p, q].into_iter().find(is_common)?;
+    Some(RefinedBounds {
         upper: 0.0,
-        points: [middle; 2],
+        points: [common; 2],
         ..touch
     })
 }

@@ -48,7 +48,12 @@ pub fn smooth_touch(
         precision.size,
     );
     let least = -tolerance::JUST_INSIDE * precision.size;
-    let (guess, found) = parts.touch(direction);
+    let is_known = direction != Vec3::zeros();
+    let along_known = is_known.then(|| parts.touch_along(&direction)).flatten();
+    let (guess, found) = match along_known {
+        Some(_) => (direction, along_known),
+        None => parts.touch(direction),
+    };
     if let Some(near) = found
         && near.lower >= least
     {

@@ -6,11 +6,10 @@ use smallvec::SmallVec;
 use super::contact_normal::LocalFeatures;
 use super::core::Core;
 use super::nearest_parts::{NearestParts, direction_on_both};
-use super::placed::PlacedPrimitive;
 use super::polytope_distance::cuboid;
 use super::surface_part::SurfacePart;
 use crate::gjk::{Names, Nearby, Support};
-use crate::pose::{Vec3, turned};
+use crate::pose::{Vec3, turned, turned_back};
 use crate::primitive::{Feature, HIGH_END, LOW_END, SmoothKind};
 use crate::tolerance;
 
@@ -28,7 +27,7 @@ pub struct TouchingParts<'a> {
     cores: [&'a Core<'a>; 2],
     /// A point of each where they nearly do.
     pub points: [Vec3; 2],
-    /// Of polytopes, the names of the parts that hold these, where they are known.
+    /// Of polytopes, the names of the parts that hold these, where they are known. What a box has there shows in the normal.
     names: [Option<Names>; 2],
     size: f64,
 }
@@ -50,8 +49,8 @@ impl<'a> TouchingParts<'a> {
     ) -> Self {
         let names = [0, 1].map(|side| {
             let placed = cores[side].placed();
-            let known = placed.names_of(features[side]);
-            known.or_else(|| part_around(placed, &points[side], AROUND * size))
+            let is_known = cuboid(placed).is_none();
+            is_known.then(|| placed.names_of(features[side])).flatten()
         });
         Self {
             cores,
@@ -61,21 +60,42 @@ impl<'a> TouchingParts<'a> {
         }
     }
 
-    /// The best guess of a unit direction from B to A, and what Newton's method makes of it: a signed gap, its direction, and a point of A and
-    /// one of B where it is. No other direction around it has a larger gap; `None` where that is not proved. `known` is a guess, or zero.
+    /// What Newton's method makes of the unit direction from B to A: a signed gap, its direction, and a point of A and one of B where it is.
+    /// No other direction around it has a larger gap; `None` where that is not proved.
+    pub fn touch_along(&self, direction: &Vec3) -> Option<Nearby> {
+        self.solve(&self.guess(*direction))
+    }
+
+    /// The same of the best guess that the surfaces offer, with that guess. `known` is one, or zero.
     pub fn touch(&self, known: Vec3) -> (Vec3, Option<Nearby>) {
-        if known != Vec3::zeros() {
-            let guess = self.guess(known);
-            let apart = (self.points[0] - self.points[1]).norm();
+        let first = if known == Vec3::zeros() {
+            self.between_middles()
+        } else {
+            known
+        };
+        let mut best = self.best_normal(&self.points, self.guess(first));
+        let found = self.solve(&best);
+        if found.is_some_and(|near| near.lower >= -self.accepted()) {
             // No direction has a larger gap than two points are apart.
-            if guess.gap >= apart - self.accepted()
-                && let Some(found) = self.solve(&guess)
-            {
-                return (known, Some(found));
-            }
+            return (best.normal, found);
         }
-        let guess = self.best_guess(known);
-        (guess.normal, self.solve(&guess))
+        best = best.or(self.guess(self.between_middles()));
+        best = self.best_across_edges(&self.points, best);
+        let found = self.solve(&best);
+        if found.is_some_and(|near| near.lower >= -self.accepted()) {
+            return (best.normal, found);
+        }
+        // The points were not where the surfaces are. Each around the other's point: which side of an apex is next to it matters.
+        let n = best.normal;
+        let [p, q] = match &found {
+            Some(near) => near.points,
+            None => [self.cores[0].support(&-n), self.cores[1].support(&n)],
+        };
+        let other = self.best_across_edges(&[q, p], self.best_normal(&[q, p], best));
+        if other.gap <= best.gap {
+            return (best.normal, found);
+        }
+        (other.normal, self.solve(&other))
     }
 
     /// The gap along a unit direction from B to A.
@@ -95,39 +115,34 @@ impl<'a> TouchingParts<'a> {
         ACCEPTED * self.size
     }
 
-    /// The direction with the largest gap among those that the surfaces around the points offer.
-    fn best_guess(&self, known: Vec3) -> Guess {
+    /// The direction from the middle of B to that of A.
+    fn between_middles(&self) -> Vec3 {
         let [a, b] = self.cores.map(|core| core.placed().middle());
-        let between = (a - b).try_normalize(0.0).unwrap_or_else(Vec3::x);
-        let mut best = self.guess(between);
-        if known != Vec3::zeros() {
-            best = best.or(self.guess(known));
-        }
-        best = self.best_around(&self.points, best);
-        if best.gap < -self.accepted() {
-            // The common point is not where the surfaces are. Each around the other's point: which side of an apex is next to it matters.
-            let n = best.normal;
-            let points = [self.cores[1].support(&n), self.cores[0].support(&-n)];
-            best = self.best_around(&points, best);
+        (a - b).try_normalize(0.0).unwrap_or_else(Vec3::x)
+    }
+
+    /// The best of a guess and the directions that are normal to one of the surfaces around two points.
+    fn best_normal(&self, points: &[Vec3; 2], mut best: Guess) -> Guess {
+        let [a, b] = [0, 1].map(|side| normals_around(self.cores[side], &points[side], self.size));
+        for normal in a.iter().map(|normal| -normal).chain(b) {
+            best = best.or(self.guess(normal));
         }
         best
     }
 
-    /// The best of a guess and the directions from B to A that are normal to one of the surfaces around two points, or to an edge of either.
-    fn best_around(&self, points: &[Vec3; 2], mut best: Guess) -> Guess {
-        let [a, b] =
-            [0, 1].map(|side| Surroundings::of(self.cores[side], &points[side], self.size));
-        let mut offer = |normal: Vec3| best = best.or(self.guess(normal));
-        a.normals.iter().for_each(|normal| offer(-normal));
-        b.normals.iter().for_each(|normal| offer(*normal));
-        for (along, height) in &a.edges {
+    /// The best of a guess and the directions across an edge, a rim or a ruling of each surface around two points.
+    fn best_across_edges(&self, points: &[Vec3; 2], mut best: Guess) -> Guess {
+        let [a, b] = [0, 1].map(|side| edges_around(self.cores[side], &points[side], self.size));
+        for (along, height) in &a {
             // A's outward normal is the opposite of the direction.
             let on_a = (*along, -height);
-            for on_b in &b.edges {
+            for on_b in &b {
                 let across = along.cross(&on_b.0);
                 if across.norm() > tolerance::PARALLEL_EDGES {
                     let both = [across, -across].map(|side| direction_on_both(on_a, *on_b, &side));
-                    both.into_iter().flatten().for_each(&mut offer);
+                    for normal in both.into_iter().flatten() {
+                        best = best.or(self.guess(normal));
+                    }
                 }
             }
         }
@@ -152,92 +167,110 @@ impl Guess {
     }
 }
 
-/// The names of the part of a box, a segment or a point that is around a point; `None` for others.
-fn part_around(placed: &PlacedPrimitive, point: &Vec3, near: f64) -> Option<Names> {
-    if placed.shape.smooth().is_some() {
-        return None;
-    }
-    if let Some(cuboid) = cuboid(placed) {
-        return placed.names_of(cuboid.feature_at(&cuboid.seen(&placed.seen(point)), near));
-    }
-    match placed.vertex_count() {
-        1 => Some(Names::one(0)),
-        2 => {
-            let is_here = |end: &u32| (placed.vertex(*end) - point).norm() <= near;
-            let end = [0, 1].into_iter().find(is_here);
-            Some(end.map_or(Names::two(0, 1), Names::one))
-        }
-        _ => None,
-    }
-}
-
 /// The names of the part of a core's surface that has an outward normal.
 fn part_along(core: &Core, outwards: &Vec3) -> Names {
-    let rulings = Names::two(LOW_END, HIGH_END);
-    let tube = core
-        .smooth()
-        .and_then(|_| SurfacePart::between(core, rulings.as_slice()));
-    match tube.and_then(|tube| tube.constraint()) {
-        Some((axis, height)) if (axis.dot(outwards) - height).abs() <= ON_RULINGS => rulings,
+    let placed = core.placed();
+    let (all, constraint) = if core.smooth().is_some() {
+        let rulings = Names::two(LOW_END, HIGH_END);
+        let tube = SurfacePart::between(core, rulings.as_slice());
+        (rulings, tube.and_then(|tube| tube.constraint()))
+    } else if let Some(cuboid) = cuboid(placed) {
+        let normal = turned_back(&cuboid.axes, &placed.turned_back(outwards));
+        let is_level = |k: usize| normal[k].abs() <= ON_RULINGS;
+        let sides = Vec3::from_fn(|k, _| {
+            if is_level(k) {
+                0.0
+            } else {
+                2.0 * normal[k].signum()
+            }
+        });
+        let names = placed.names_of(cuboid.feature_towards(&cuboid.half.component_mul(&sides)));
+        return names.unwrap_or_else(|| Names::one(core.extreme(outwards).name));
+    } else if placed.vertex_count() == 2 {
+        let along = (core.vertex(1) - core.vertex(0)).try_normalize(0.0);
+        (Names::two(0, 1), along.map(|along| (along, 0.0)))
+    } else {
+        (Names::one(0), None)
+    };
+    match constraint {
+        Some((axis, height)) if (axis.dot(outwards) - height).abs() <= ON_RULINGS => all,
         _ => Names::one(core.extreme(outwards).name),
     }
 }
 
-/// What a core's surface is like around a point on it or near it.
-#[derive(Default)]
-struct Surroundings {
-    /// Outward normals.
-    normals: SmallVec<[Vec3; 8]>,
-    /// Of edges, rims and rulings: the outward normals n of the planes that touch them are those with n . v = c, for a unit vector v and a
-    /// number c.
-    edges: SmallVec<[(Vec3, f64); 8]>,
+/// The outward normals of a core's surface around a point on it or near it.
+fn normals_around(core: &Core, point: &Vec3, size: f64) -> SmallVec<[Vec3; 8]> {
+    let mut found = SmallVec::new();
+    let Some(smooth) = core.smooth() else {
+        let placed = core.placed();
+        if let Some(cuboid) = cuboid(placed) {
+            let seen = cuboid.seen(&placed.seen(point));
+            let normal = |k: usize| cuboid.axes.column(k) * seen[k].signum();
+            found.extend([0, 1, 2].map(|k| placed.turned(&normal(k))));
+            return found;
+        }
+        let is_flat = placed.shape.faces.len() == 1;
+        for face in placed.faces_at(point, AROUND * size) {
+            let normal = placed.normal(face);
+            found.push(normal);
+            if is_flat {
+                found.push(-normal);
+            }
+        }
+        return found;
+    };
+    let local = smooth.seen(point);
+    match *smooth.kind {
+        SmoothKind::Cylinder { .. } => {
+            let end = Vec3::z() * 1f64.copysign(local.z);
+            found.extend([outwards(&local), end]);
+        }
+        SmoothKind::Cone { radius, height } => {
+            let side = outwards(&local) * height + Vec3::z() * radius;
+            found.extend([side / radius.hypot(height), -Vec3::z(), Vec3::z()]);
+        }
+        SmoothKind::Ellipsoid { semi_axes } => {
+            let steepest = local.component_div(&semi_axes.component_mul(&semi_axes));
+            found.extend(steepest.try_normalize(0.0));
+        }
+        SmoothKind::Function(_) => (),
+    }
+    for normal in &mut found {
+        *normal = turned(&smooth.axes, normal);
+    }
+    found
 }
 
-impl Surroundings {
-    fn of(core: &Core, point: &Vec3, size: f64) -> Self {
-        let Some(smooth) = core.smooth() else {
-            let local = LocalFeatures::around(core.placed(), point, AROUND * size);
-            let both = local.normals.iter().flat_map(|normal| [*normal, -normal]);
-            return Self {
-                normals: if local.is_flat {
-                    both.collect()
-                } else {
-                    local.normals.into_iter().collect()
-                },
-                edges: local.directions.iter().map(|&along| (along, 0.0)).collect(),
-            };
-        };
-        let local = smooth.seen(point);
-        let outwards = Vec3::new(local.x, local.y, 0.0).try_normalize(0.0);
-        let outwards = outwards.unwrap_or_else(Vec3::x);
-        let along_rim = (Vec3::new(-outwards.y, outwards.x, 0.0), 0.0);
-        let up = Vec3::z();
-        let mut found = Self::default();
-        match *smooth.kind {
-            SmoothKind::Cylinder { .. } => {
-                found
-                    .normals
-                    .extend([outwards, up * 1f64.copysign(local.z)]);
-                found.edges.extend([along_rim, (up, 0.0)]);
-            }
-            SmoothKind::Cone { radius, height } => {
-                let slope = radius.hypot(height);
-                let side = (outwards * height + up * radius) / slope;
-                found.normals.extend([side, -up, up]);
-                found.edges.extend([along_rim, (up, radius / slope)]);
-            }
-            SmoothKind::Ellipsoid { semi_axes } => {
-                let steepest = local.component_div(&semi_axes.component_mul(&semi_axes));
-                found.normals.extend(steepest.try_normalize(0.0));
-            }
-            SmoothKind::Function(_) => (),
+/// The edges, the rim and the rulings of a core's surface around a point on it or near it: planes touch one where their outward normal n has
+/// n . v = c, for a unit vector v and a number c.
+fn edges_around(core: &Core, point: &Vec3, size: f64) -> SmallVec<[(Vec3, f64); 8]> {
+    let Some(smooth) = core.smooth() else {
+        let placed = core.placed();
+        if let Some(cuboid) = cuboid(placed) {
+            let along = |k: usize| placed.turned(&cuboid.axes.column(k).into());
+            return [0, 1, 2].map(|k| (along(k), 0.0)).into_iter().collect();
         }
-        for normal in &mut found.normals {
-            *normal = turned(&smooth.axes, normal);
+        if placed.vertex_count() == 2 {
+            let along = (core.vertex(1) - core.vertex(0)).try_normalize(0.0);
+            return along.into_iter().map(|along| (along, 0.0)).collect();
         }
-        for (along, _) in &mut found.edges {
-            *along = turned(&smooth.axes, along);
-        }
-        found
-    }
+        let local = LocalFeatures::around(placed, point, AROUND * size);
+        return local.directions.iter().map(|&along| (along, 0.0)).collect();
+    };
+    let rulings_height = match *smooth.kind {
+        SmoothKind::Cylinder { .. } => 0.0,
+        SmoothKind::Cone { radius, height } => radius / radius.hypot(height),
+        SmoothKind::Ellipsoid { .. } | SmoothKind::Function(_) => return SmallVec::new(),
+    };
+    let outwards = outwards(&smooth.seen(point));
+    let rim = Vec3::new(-outwards.y, outwards.x, 0.0);
+    let edges = [(rim, 0.0), (Vec3::z(), rulings_height)];
+    let edges = edges.map(|(along, height)| (turned(&smooth.axes, &along), height));
+    edges.into_iter().collect()
+}
+
+/// The direction from the axis of a solid of revolution to a point, in the solid's own frame.
+fn outwards(local: &Vec3) -> Vec3 {
+    let away = Vec3::new(local.x, local.y, 0.0);
+    away.try_normalize(0.0).unwrap_or_else(Vec3::x)
 }

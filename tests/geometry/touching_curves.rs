@@ -152,8 +152,9 @@ fn contacts_on_smooth_surfaces_have_the_normal_of_the_surface() {
     let mut worst = 0.0f64;
     for round in 0..24_000 {
         let decades = [0.3, 1.0][round % 2];
+        let kinds = [random.below(3), random.below(9)];
         let (a, on_a) = curved(random, decades);
-        let b = any_set(random, round / 2 % 9, decades);
+        let b = any_set(random, kinds[1], decades);
         let on_b = b.facing(random);
         let (normal, gap) = (-on_a.normal, any_gap(random));
         let pair = Pair::facing(random, [a, b], [on_a, on_b], gap);
@@ -196,9 +197,10 @@ fn contacts_have_the_largest_gap_there_is() {
     let mut faults = Faults::default();
     let mut overlaps = 0;
     for round in 0..24_000 {
-        let decades = [0.3, 1.0][round % 2];
-        let a = any_set(random, 1 + round % 3, decades);
-        let b = any_set(random, round / 3 % 9, decades);
+        let decades = [0.3, 1.0, 3.0][round % 3];
+        let kinds = [random.below(3), random.below(9)];
+        let a = any_set(random, 1 + kinds[0], decades);
+        let b = any_set(random, kinds[1], decades);
         let (on_a, on_b) = (a.facing(random), b.facing(random));
         let (facing, gap) = (-on_a.normal, any_gap(random));
         let mut pair = Pair::facing(random, [a, b], [on_a, on_b], gap);
@@ -214,7 +216,7 @@ fn contacts_have_the_largest_gap_there_is() {
         };
         let Some(contact) = contact else {
             // Some are deeper than a contact may be.
-            let is_shallow = before > -0.3e-6 * pair.size;
+            let is_shallow = before > -0.2e-6 * pair.size;
             faults.check(!is_shallow, "no contact", text);
             continue;
         };
