@@ -129,6 +129,9 @@ const MAX_RADII: f64 = 1e3;
 #[cold]
 fn are_dwarfed(r: &PlacedPrimitive, s: &PlacedPrimitive) -> bool {
     let radii = r.shape.radius() + s.shape.radius();
+    if radii == 0.0 {
+        return false;
+    }
     let widths = [r, s].map(|placed| {
         let core = Core::of(placed);
         let along = |axis: Vec3| (core.support(&axis) - core.support(&-axis)).dot(&axis);

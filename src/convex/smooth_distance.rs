@@ -8,6 +8,7 @@ use super::likely_parts::{ByParts, LikelyParts, holds};
 use super::nearest_parts::NearestParts;
 use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_smooth::point_to_smooth;
+use super::polytope_distance::cuboid;
 use super::segment::{Segment, closest_parameters};
 use super::touching_parts::TouchingParts;
 use crate::gjk::{DistanceLimits, Names, Nearby, RefinedBounds, refined};
@@ -254,6 +255,9 @@ fn holding_feature(
 
 /// The first feature of a polytope near a point of it: vertices first, then edges, then faces.
 pub fn feature_at(placed: &PlacedPrimitive, point: &Vec3, slack: f64) -> Feature {
+    if let Some(cuboid) = cuboid(placed) {
+        return cuboid.feature_at(&cuboid.seen(&placed.seen(point)), slack);
+    }
     let near = |v: &Vec3| (v - point).norm() <= slack;
     if let Some(i) = placed.vertices().iter().position(near) {
         return Feature::vertex(i as u32);

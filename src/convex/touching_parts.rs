@@ -73,29 +73,22 @@ impl<'a> TouchingParts<'a> {
         } else {
             known
         };
-        let mut best = self.best_normal(&self.points, self.guess(first));
-        let found = self.solve(&best);
-        if found.is_some_and(|near| near.lower >= -self.accepted()) {
-            // No direction has a larger gap than two points are apart.
-            return (best.normal, found);
+        let mut best = Tried::new(self, self.best_normal(&self.points, self.guess(first)));
+        if !best.is_apart(self) {
+            let between = self.guess(self.between_middles());
+            best.improve(self, self.best_across_edges(&self.points, between));
         }
-        best = best.or(self.guess(self.between_middles()));
-        best = self.best_across_edges(&self.points, best);
-        let found = self.solve(&best);
-        if found.is_some_and(|near| near.lower >= -self.accepted()) {
-            return (best.normal, found);
+        if !best.is_apart(self) {
+            // The points were not where the surfaces are. Each around the other's point: which side of an apex is next to it matters.
+            let n = best.guess.normal;
+            let [p, q] = match &best.found {
+                Some(near) => near.points,
+                None => [self.cores[0].support(&-n), self.cores[1].support(&n)],
+            };
+            let normal = self.best_normal(&[q, p], best.guess);
+            best.improve(self, self.best_across_edges(&[q, p], normal));
         }
-        // The points were not where the surfaces are. Each around the other's point: which side of an apex is next to it matters.
-        let n = best.normal;
-        let [p, q] = match &found {
-            Some(near) => near.points,
-            None => [self.cores[0].support(&-n), self.cores[1].support(&n)],
-        };
-        let other = self.best_across_edges(&[q, p], self.best_normal(&[q, p], best));
-        if other.gap <= best.gap {
-            return (best.normal, found);
-        }
-        (other.normal, self.solve(&other))
+        (best.guess.normal, best.found)
     }
 
     /// The gap along a unit direction from B to A.
@@ -158,6 +151,35 @@ impl<'a> TouchingParts<'a> {
         let parts = NearestParts::new(self.cores, names, self.accepted())?.at_touch();
         let found = parts.solve(n)?;
         (found.lower >= guess.gap - self.accepted()).then_some(found)
+    }
+}
+
+/// A guess, and what Newton's method makes of it.
+struct Tried {
+    guess: Guess,
+    found: Option<Nearby>,
+}
+
+impl Tried {
+    fn new(parts: &TouchingParts, guess: Guess) -> Self {
+        Self {
+            guess,
+            found: parts.solve(&guess),
+        }
+    }
+
+    /// Whether cores that do not overlap have been found to touch or to be apart: no direction has a larger gap than two points are apart.
+    fn is_apart(&self, parts: &TouchingParts) -> bool {
+        self.found
+            .is_some_and(|near| near.lower >= -parts.accepted())
+    }
+
+    /// Takes a guess that is better than all that is known by more than rounding.
+    fn improve(&mut self, parts: &TouchingParts, guess: Guess) {
+        let reached = self.found.map_or(self.guess.gap, |near| near.lower);
+        if guess.gap > reached + parts.accepted() {
+            *self = Self::new(parts, guess);
+        }
     }
 }
 
