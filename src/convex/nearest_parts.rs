@@ -174,7 +174,9 @@ impl<'a> NearestParts<'a> {
     fn turn_around(&self, (axis, height): (Vec3, f64), guess: &Vec3) -> Option<Nearby> {
         let radius = (1.0 - height * height).sqrt();
         let on_circle = |n: &Vec3| {
-            let away = (n - axis * axis.dot(n)).try_normalize(0.0)?;
+            let once = (n - axis * axis.dot(n)).try_normalize(0.0)?;
+            // Projected twice: what is left of a direction along the axis is rounding, which may point along it too.
+            let away = (once - axis * axis.dot(&once)).try_normalize(0.5)?;
             Some(axis * height + away * radius)
         };
         let mut direction = on_circle(guess)?;

@@ -11,7 +11,7 @@ use super::point_to_smooth::point_to_smooth;
 use super::polytope_distance::cuboid;
 use super::segment::{Segment, closest_parameters};
 use super::touching_parts::TouchingParts;
-use crate::gjk::{DistanceLimits, Names, Nearby, RefinedBounds, refined};
+use crate::gjk::{DistanceLimits, Names, Nearby, RefinedBounds, refined, walked};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 use crate::primitive::Feature;
@@ -37,12 +37,11 @@ pub fn smooth_closest(
     if let Some(found) = between_parallel([a, b], [&core_a, &core_b], pair) {
         return Ok(found);
     }
-    let search = || {
-        // A start that depends on the two primitives alone, so that the answer does too.
-        let start = a.middle() - b.middle();
-        refined_pair(&core_a, &core_b, start, pair, limits)
-    };
-    let found = match likely([&core_a, &core_b], pair, limits) {
+    let cores = [&core_a, &core_b];
+    // A start that depends on the two primitives alone, so that the answer does too.
+    let start = a.middle() - b.middle();
+    let search = || refined_pair(&core_a, &core_b, start, pair, limits);
+    let found = match likely(cores, pair, limits) {
         Some(ByParts::Beyond { direction, gap }) => return Err(Beyond { direction, gap }),
         Some(ByParts::Within(points)) => return Ok(near_enough(points, Vec3::zeros())),
         Some(ByParts::Meet { point, depth }) => {
@@ -54,7 +53,12 @@ pub fn smooth_closest(
         }
         Some(ByParts::Near(near)) => RefinedBounds::of_nearby(near),
         Some(ByParts::Close { points, direction }) => {
-            touching([&core_a, &core_b], points, direction, pair).unwrap_or_else(search)
+            let touching = || touching(cores, points, direction, pair);
+            // Of most cores that overlap by more a walk proves it. Whether two primitives meet was asked of one before.
+            let overlap = (limits.enough != 0.0)
+                .then(|| walked(&core_a, &core_b, start, pair.size, limits))
+                .filter(|walked| walked.depth > 0.0);
+            overlap.or_else(touching).unwrap_or_else(search)
         }
         None => search(),
     };

@@ -123,9 +123,26 @@ impl<'a> TouchingParts<'a> {
         best
     }
 
-    /// The best of a guess and the directions across an edge, a rim or a ruling of each surface around two points.
+    /// The best of a guess and the directions across an edge, a rim or a ruling of each surface around two points, and of the normals of one
+    /// across edges of a polytope.
     fn best_across_edges(&self, points: &[Vec3; 2], mut best: Guess) -> Guess {
         let [a, b] = [0, 1].map(|side| edges_around(self.cores[side], &points[side], self.size));
+        for (side, edges) in [&a, &b].into_iter().enumerate() {
+            let other = 1 - side;
+            if self.cores[side].smooth().is_some() {
+                continue;
+            }
+            let normals = normals_around(self.cores[other], &points[other], self.size);
+            for (along, _) in edges {
+                for outwards in &normals {
+                    let normal = if other == 0 { -outwards } else { *outwards };
+                    let level = normal - along * along.dot(&normal);
+                    if let Some(level) = level.try_normalize(tolerance::PARALLEL_EDGES) {
+                        best = best.or(self.guess(level));
+                    }
+                }
+            }
+        }
         for (along, height) in &a {
             // A's outward normal is the opposite of the direction.
             let on_a = (*along, -height);
@@ -237,6 +254,10 @@ fn normals_around(core: &Core, point: &Vec3, size: f64) -> SmallVec<[Vec3; 8]> {
             found.push(normal);
             if is_flat {
                 found.push(-normal);
+                // Across its edges, in its plane.
+                let edges = edges_around(core, point, size);
+                let across = edges.iter().map(|(along, _)| along.cross(&normal));
+                found.extend(across.flat_map(|across| [across, -across]));
             }
         }
         return found;

@@ -90,6 +90,7 @@ pub fn refined<A: Support, B: Support>(
         walks_first: true,
         accepted: tolerance::CERTIFIED_GAP * size,
         limits,
+        max_steps: MAX_STEPS,
         finish: Some(&finish),
     };
     // Decided only by more than the error of what the whole search finds.
@@ -119,6 +120,29 @@ pub fn refined<A: Support, B: Support>(
         (found.lower, found.direction) = (0.0, Vec3::zeros());
     }
     found
+}
+
+/// What may end a search: see [`refined`].
+type Finish = fn(&[Names; 2], &Vec3) -> Option<Nearby>;
+
+/// What [`refined`] begins with, a walk towards the origin: a positive depth, a gap, or neither.
+pub fn walked<A: Support, B: Support>(
+    a: &A,
+    b: &B,
+    start: Vec3,
+    size: f64,
+    limits: DistanceLimits,
+) -> RefinedBounds {
+    with_widest(Refinement {
+        a,
+        b,
+        start,
+        walks_first: true,
+        accepted: tolerance::CERTIFIED_GAP * size,
+        limits,
+        max_steps: 0,
+        finish: None::<&Finish>,
+    })
 }
 
 impl RefinedBounds {
@@ -167,6 +191,7 @@ struct Refinement<'a, A, B, F> {
     /// The bounds have met when they are this close.
     accepted: f64,
     limits: DistanceLimits,
+    max_steps: u32,
     /// `None` where bounds as close as [`THRESHOLD_GAP`] end the search.
     finish: Option<&'a F>,
 }
@@ -193,7 +218,7 @@ where
         if self.walks_first && iteration.begin(&self).is_break() {
             return iteration.found;
         }
-        while iteration.found.iterations < MAX_STEPS {
+        while iteration.found.iterations < self.max_steps {
             if iteration.step(&self).is_break() {
                 break;
             }

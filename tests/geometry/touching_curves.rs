@@ -245,3 +245,91 @@ fn contacts_have_the_largest_gap_there_is() {
     println!("{overlaps} overlap");
     faults.none();
 }
+
+/// The clearance that the bodies have, and a normal of length 1 that has it.
+fn check_clearance(sets: [&Set; 2], poses: [[f64; 12]; 2], clearance: f64, error: f64) {
+    let poses = poses.map(|rows| Pose::from_row_major(&rows).unwrap());
+    let bodies = sets.map(Set::body);
+    let mut context = QueryContext::new();
+    let places = [(&bodies[0], &poses[0]), (&bodies[1], &poses[1])];
+    let found = context
+        .pair_distance(places[0], places[1], f64::INFINITY)
+        .unwrap();
+    let contact = found.contact.unwrap();
+    assert!((contact.normal.norm() - 1.0).abs() <= 1e-14, "{contact:?}");
+    assert!(
+        (contact.clearance - clearance).abs() <= error,
+        "{contact:?}"
+    );
+    let [a, b] = [0, 1].map(|side| {
+        let towards = contact.normal * [-1.0, 1.0][side];
+        let turned = poses[side].rotation.transpose() * towards;
+        towards.dot(&poses[side].translation) + sets[side].reach(&turned)
+    });
+    assert!(
+        (-a - b - clearance).abs() <= error,
+        "{} {contact:?}",
+        -a - b
+    );
+}
+
+/// A point at the apex of a cone that is nearly a disc: all normals there are along the axis to within 2e-5.
+#[test]
+fn normals_at_the_apex_of_a_flat_cone_are_of_length_1() {
+    let turn = 1.5890791026847955e-5;
+    let cos = 0.999_999_999_873_741_3;
+    let height = 2f64.powi(-15);
+    let point = Vec3::new(
+        -0.0008697509765625,
+        -0.0007476806640625,
+        -0.0004119873046875,
+    );
+    let cone = Cone(1.5, height);
+    let (x, y, z) = (
+        -0.0007476806640625,
+        0.00041200112566649696,
+        -0.000_854_485_640_586_021_9,
+    );
+    check_clearance(
+        [&Points(vec![point]), &cone],
+        [
+            [0.0, -1.0, 0.0, x, turn, 0.0, cos, y, -cos, 0.0, turn, z],
+            [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
+        ],
+        0.0,
+        1e-11,
+    );
+}
+
+/// Small ellipsoids on the edge of a large triangle: the way out is in the triangle's plane.
+#[test]
+fn ellipsoids_on_edges_leave_in_the_plane() {
+    let triangle = Sheet(vec![Vec3::zeros(), Vec3::x(), Vec3::y()]);
+    let (x, y, z) = (2f64.powi(-21), 0.75 * 2f64.powi(-20), 2f64.powi(-19));
+    let tilt = 4.226460287246623e-05;
+    let cos = 0.999_999_999_106_851_7;
+    check_clearance(
+        [&Ellipsoid(Vec3::new(x, y, z)), &triangle],
+        [
+            [
+                cos,
+                0.0,
+                tilt,
+                -820.21875,
+                0.0,
+                1.0,
+                0.0,
+                -764.000_000_713_311_5,
+                -tilt,
+                0.0,
+                cos,
+                305.0,
+            ],
+            [
+                1.0, 0.0, 0.0, -821.0, 0.0, 1.0, 0.0, -764.0, 0.0, 0.0, 1.0, 305.0,
+            ],
+        ],
+        -1.9443e-9,
+        1e-12 * 800.0,
+    );
+}
