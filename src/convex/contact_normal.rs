@@ -23,7 +23,7 @@ const MAX_EDGE_PAIRS: usize = 4096;
 const MIN_AGREEMENT: f64 = 1.0 - 1e-6;
 
 /// A list of usually few directions.
-pub type Directions = SmallVec<[Vec3; 16]>;
+type Directions = SmallVec<[Vec3; 16]>;
 
 /// A primitive pair with its closest points, in a common frame.
 #[derive(Clone, Copy)]

@@ -53,12 +53,18 @@ pub fn smooth_closest(
         }
         Some(ByParts::Near(near)) => RefinedBounds::of_nearby(near),
         Some(ByParts::Close { points, direction }) => {
-            let touching = || touching(cores, points, direction, pair);
-            // Of most cores that overlap by more a walk proves it. Whether two primitives meet was asked of one before.
-            let overlap = (limits.enough != 0.0)
-                .then(|| walked(&core_a, &core_b, start, pair.size, limits))
-                .filter(|walked| walked.depth > 0.0);
-            overlap.or_else(touching).unwrap_or_else(search)
+            // Of most cores that overlap by more, or are apart, a walk proves it. Whether two primitives meet was asked of one before.
+            let walked =
+                (limits.enough != 0.0).then(|| walked(&core_a, &core_b, start, pair.size, limits));
+            match walked {
+                Some(walked) if walked.depth > 0.0 => walked,
+                Some(walked)
+                    if walked.lower > tolerance::MIN_SMOOTH_NORMAL_DISTANCE * pair.size =>
+                {
+                    search()
+                }
+                _ => touching(cores, points, direction, pair).unwrap_or_else(search),
+            }
         }
         None => search(),
     };

@@ -22,6 +22,10 @@ const ON_RULINGS: f64 = 1e-6;
 /// What is this near to a point, in L, is around it: some depths of cores that touch.
 const AROUND: f64 = 2.0 * tolerance::JUST_INSIDE;
 
+/// At most 16 faces and 16 edges of a polytope around a point are tried, evenly out of all: at the apex of a fan of n each of n would cost n.
+/// A larger value costs more there, a smaller one may leave out the best guess where many meet.
+const MAX_AROUND: usize = 16;
+
 /// Two cores that may touch.
 pub struct TouchingParts<'a> {
     cores: [&'a Core<'a>; 2],
@@ -249,7 +253,8 @@ fn normals_around(core: &Core, point: &Vec3, size: f64) -> SmallVec<[Vec3; 8]> {
             return found;
         }
         let is_flat = placed.shape.faces.len() == 1;
-        for face in placed.faces_at(point, AROUND * size) {
+        let faces: SmallVec<[usize; 16]> = placed.faces_at(point, AROUND * size).collect();
+        for &face in evenly(&faces) {
             let normal = placed.normal(face);
             found.push(normal);
             if is_flat {
@@ -298,7 +303,9 @@ fn edges_around(core: &Core, point: &Vec3, size: f64) -> SmallVec<[(Vec3, f64); 
             return along.into_iter().map(|along| (along, 0.0)).collect();
         }
         let local = LocalFeatures::around(placed, point, AROUND * size);
-        return local.directions.iter().map(|&along| (along, 0.0)).collect();
+        return evenly(&local.directions)
+            .map(|&along| (along, 0.0))
+            .collect();
     };
     let rulings_height = match *smooth.kind {
         SmoothKind::Cylinder { .. } => 0.0,
@@ -310,6 +317,11 @@ fn edges_around(core: &Core, point: &Vec3, size: f64) -> SmallVec<[(Vec3, f64); 
     let edges = [(rim, 0.0), (Vec3::z(), rulings_height)];
     let edges = edges.map(|(along, height)| (turned(&smooth.axes, &along), height));
     edges.into_iter().collect()
+}
+
+/// At most [`MAX_AROUND`] of a list.
+fn evenly<T>(all: &[T]) -> impl Iterator<Item = &T> {
+    all.iter().step_by(all.len().div_ceil(MAX_AROUND).max(1))
 }
 
 /// The direction from the axis of a solid of revolution to a point, in the solid's own frame.
