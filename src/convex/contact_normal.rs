@@ -294,10 +294,15 @@ fn edges_of(placed: &PlacedPrimitive, faces: &[usize]) -> SmallVec<[u32; 64]> {
     let Some(incidence) = placed.incidence() else {
         return (0..placed.shape.edges.len() as u32).collect();
     };
-    let corners = faces
+    // Each once: an apex is a corner of all faces around it.
+    let mut corners: SmallVec<[u32; 64]> = faces
         .iter()
-        .flat_map(|&face| placed.shape.faces[face].vertices.iter());
+        .flat_map(|&face| placed.shape.faces[face].vertices.iter().copied())
+        .collect();
+    corners.sort_unstable();
+    corners.dedup();
     let mut edges: SmallVec<[u32; 64]> = corners
+        .iter()
         .flat_map(|&corner| incidence.edges_of(corner))
         .copied()
         .collect();
