@@ -28,9 +28,20 @@ for peer in python-fcl coal==3.0.3; do
   "$venv/pip" install --quiet --only-binary :all: "$peer" || echo "SKIPPED: $peer could not be installed" >&2
 done
 
-"$venv/python" -m mypy --config-file python/pyproject.toml -p cstk
+# The same wheel on PyPy meanwhile: each of the two takes one core.
+on_pypy() {
+  rm -rf "$work/pypy"
+  pypy3 -m venv "$work/pypy"
+  "$work/pypy/bin/pip" install --quiet --only-binary :all: pytest "$work"/wheels/cstk-*.whl
+  run_tests "$work/pypy/bin/python"
+}
 # A test that hangs is ended, and pytest then says where it hung.
 run_tests() { timeout --signal=ABRT 900 "$1" -m pytest -q -rs -p no:cacheprovider python/tests; }
+(set -e; on_pypy) >"$work/pypy.log" 2>&1 &
+pypy=$!
+trap 'kill "$pypy" 2>/dev/null || true' EXIT
+
+"$venv/python" -m mypy --config-file python/pyproject.toml -p cstk
 run_tests "$venv/python"
 for example in python/examples/*.py; do
   echo "== $example"
@@ -38,7 +49,7 @@ for example in python/examples/*.py; do
 done
 
 echo "== the same wheel on $(pypy3 --version 2>&1 | grep PyPy)"
-rm -rf "$work/pypy"
-pypy3 -m venv "$work/pypy"
-"$work/pypy/bin/pip" install --quiet --only-binary :all: pytest "$work"/wheels/cstk-*.whl
-run_tests "$work/pypy/bin/python"
+passed=0
+wait "$pypy" || passed=$?
+cat "$work/pypy.log"
+exit "$passed"

@@ -16,7 +16,7 @@ cargo fmt --all -- --check
 cargo clippy --quiet --locked --workspace --all-targets -- -D warnings
 
 echo "== Rust tests"
-CSTK_ALL_CASES=1 cargo test --locked --workspace --no-fail-fast
+cargo test --locked --workspace --no-fail-fast
 cargo run --quiet --locked --example generate_models -- --check
 
 echo "== the installed library"

@@ -1,6 +1,5 @@
 """What the tests share: a planar arm whose answers are closed forms, and the query context."""
 
-import math
 
 import numpy as np
 import pytest
@@ -30,19 +29,21 @@ class PlanarArm:
         self.cobject = cstk.CObject.induced(self.space, self.environment)
 
     def points(self, q):
-        """The elbow and the tip."""
-        elbow = self.length * np.array([math.cos(q[0]), math.sin(q[0])])
-        return elbow, elbow + self.length * np.array([math.cos(q[0] + q[1]), math.sin(q[0] + q[1])])
+        """The elbow and the tip, of one configuration or of each of an array."""
+        turns = np.cumsum(q, axis=-1)
+        steps = self.length * np.stack([np.cos(turns), np.sin(turns)], axis=-1)
+        return steps[..., 0, :], steps.sum(axis=-2)
 
     def clearance(self, q):
-        """The distance of the arm from the disc, below 0 where they overlap."""
+        """The distance of the arm from the disc, below 0 where they overlap; as for the points."""
         elbow, tip = self.points(q)
 
         def to_segment(a, b):
-            t = np.clip(np.dot(self.disc - a, b - a) / np.dot(b - a, b - a), 0, 1)
-            return np.linalg.norm(self.disc - a - t * (b - a))
+            along, arm = b - a, self.disc - a
+            t = np.clip((arm * along).sum(axis=-1) / self.length**2, 0, 1)
+            return np.linalg.norm(arm - t[..., np.newaxis] * along, axis=-1)
 
-        nearest = min(to_segment(np.zeros(2), elbow), to_segment(elbow, tip))
+        nearest = np.minimum(to_segment(np.zeros(2), elbow), to_segment(elbow, tip))
         return nearest - self.radius - self.disc_radius
 
 

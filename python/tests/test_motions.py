@@ -14,8 +14,8 @@ def first_touch(arm, q0, q1):
     """The first time of contact on a straight motion, by a fine scan and bisection of the closed form."""
     q0, q1 = np.asarray(q0, float), np.asarray(q1, float)
     times = np.linspace(0, 1, 4001)
-    inside = [arm.clearance(q0 + t * (q1 - q0)) <= 0 for t in times]
-    if not any(inside):
+    inside = arm.clearance(q0 + np.outer(times, q1 - q0)) <= 0
+    if not inside.any():
         return None
     end = int(np.argmax(inside))
     low, high = times[max(end - 1, 0)], times[end]
