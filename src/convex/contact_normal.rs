@@ -5,8 +5,8 @@ use smallvec::SmallVec;
 
 use super::closest::Closest;
 use super::contact::mode_of;
+use super::feature_pair::{FeatureTouch, feature_normal};
 use super::placed::{PlacedPrimitive, Precision, gap_of_primitives};
-use super::polytope_distance::feature_normal;
 use super::segment::Segment;
 use super::ways_out::shortest_way;
 use crate::pose::Vec3;
@@ -45,6 +45,21 @@ impl ContactPair<'_> {
         self.closest.distance > tolerance::MIN_NORMAL_DISTANCE * self.precision.size
     }
 
+    /// What touches at the closest features, if their own normal is the one of the contact.
+    pub fn feature_touch(&self) -> Option<FeatureTouch> {
+        let Self {
+            r, s, precision, ..
+        } = *self;
+        let features = self.closest.features;
+        if self.is_apart() || precision.planar {
+            return None;
+        }
+        let touch = FeatureTouch::at(r, s, features, precision)?;
+        touch
+            .is_least(r, s, features, precision.size)
+            .then_some(touch)
+    }
+
     /// The unit normal from s to r, or `None` where the interiors overlap deeper than [`tolerance::JUST_INSIDE`] L.
     pub fn normal(&self) -> Option<Vec3> {
         if self.is_apart() {
@@ -73,7 +88,7 @@ impl ContactPair<'_> {
     fn normal_apart(&self) -> Option<Vec3> {
         let between = self.closest.points[0] - self.closest.points[1];
         if !self.precision.planar
-            && let Some(normal) = feature_normal(self.r, self.s, self.closest)
+            && let Some(normal) = feature_normal(self.r, self.s, self.closest.features)
             && normal.dot(&between).abs() >= MIN_AGREEMENT * self.closest.distance
         {
             return Some(oriented(normal, &between));

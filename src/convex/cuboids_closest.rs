@@ -3,7 +3,7 @@
 
 use super::closest::Closest;
 use super::cuboid_axes::{CuboidAxes, EdgeGap, GAP_ERROR};
-use super::parallel_cuboids::parallel_closest;
+use super::parallel_cuboids::{parallel_closest, parallel_touching};
 use super::placed::PlacedPrimitive;
 use super::segment::{Segment, closest_parameters};
 use crate::lanes::{Instructions, Work, with_widest};
@@ -16,8 +16,13 @@ pub enum CuboidsClosest {
     /// They are farther apart than the cutoff.
     Beyond,
     Found(Closest),
-    /// The axes do not tell. A guess of the direction from B to A, not a unit vector.
-    Unknown(Vec3),
+    /// The axes do not tell.
+    Unknown {
+        /// A guess of the direction from B to A, not a unit vector.
+        direction: Vec3,
+        /// Features that they may touch at.
+        features: Option<[Feature; 2]>,
+    },
 }
 
 /// `size` is no less than any coordinate of the two.
@@ -106,7 +111,10 @@ impl Work for Search<'_> {
         };
         match found {
             Some(found) => CuboidsClosest::Found(found),
-            None => CuboidsClosest::Unknown(self.direction(&axes, axis)),
+            None => CuboidsClosest::Unknown {
+                direction: self.direction(&axes, axis),
+                features: self.touching_features(&axes, axis, largest),
+            },
         }
     }
 }
@@ -140,31 +148,98 @@ impl Search<'_> {
     /// Two points, each in its own box's frame.
     #[inline(always)]
     fn at(&self, seen: [Vec3; 2]) -> Closest {
-        let slack = GAP_ERROR * self.size;
-        let feature = |side: usize| self.cuboids[side].feature_at(&seen[side], slack);
         let point = |side: usize| {
             let cuboid = self.cuboids[side];
             self.placed[side].moved(&(cuboid.center + turned(&cuboid.axes, &seen[side])))
         };
-        Closest::between([point(0), point(1)], [feature(0), feature(1)])
+        Closest::between([point(0), point(1)], self.features_at(&seen))
+    }
+
+    /// The features that hold two points, each in its own box's frame.
+    #[inline(always)]
+    fn features_at(&self, seen: &[Vec3; 2]) -> [Feature; 2] {
+        let slack = GAP_ERROR * self.size;
+        [0, 1].map(|side| self.cuboids[side].feature_at(&seen[side], slack))
     }
 
     #[inline(always)]
     fn on_face_of_a(&self, axes: &CuboidAxes, k: usize) -> Option<Closest> {
-        let is_high = axes.between[k] > 0.0;
-        let outward = if is_high { 1.0 } else { -1.0 };
-        let row = Vec3::new(axes.turn[(k, 0)], axes.turn[(k, 1)], axes.turn[(k, 2)]);
-        let corner = self.cuboids[1].corner_towards(&(row * -outward))?;
+        let (is_high, corner) = self.corner_at_a(axes, k)?;
         self.over_face(0, k, is_high, corner)
     }
 
     #[inline(always)]
     fn on_face_of_b(&self, axes: &CuboidAxes, k: usize) -> Option<Closest> {
+        let (is_high, corner) = self.corner_at_b(axes, k)?;
+        Some(self.over_face(1, k, is_high, corner)?.swapped())
+    }
+
+    /// Which of A's faces across an axis is towards B, and B's corner that is nearest to its plane, if one alone is.
+    #[inline(always)]
+    fn corner_at_a(&self, axes: &CuboidAxes, k: usize) -> Option<(bool, u32)> {
+        let is_high = axes.between[k] > 0.0;
+        let outward = if is_high { 1.0 } else { -1.0 };
+        let row = Vec3::new(axes.turn[(k, 0)], axes.turn[(k, 1)], axes.turn[(k, 2)]);
+        Some((is_high, self.cuboids[1].corner_towards(&(row * -outward))?))
+    }
+
+    /// The same with A and B swapped.
+    #[inline(always)]
+    fn corner_at_b(&self, axes: &CuboidAxes, k: usize) -> Option<(bool, u32)> {
         let is_high = axes.seen_by_b[k] < 0.0;
         let outward = if is_high { 1.0 } else { -1.0 };
         let column = Vec3::new(axes.turn[(0, k)], axes.turn[(1, k)], axes.turn[(2, k)]);
-        let corner = self.cuboids[0].corner_towards(&(column * -outward))?;
-        Some(self.over_face(1, k, is_high, corner)?.swapped())
+        Some((
+            is_high,
+            self.cuboids[0].corner_towards(&(column * -outward))?,
+        ))
+    }
+
+    /// The edges that are farthest along the cross product of their directions, each towards the other box.
+    #[inline(always)]
+    fn edges_across(&self, axes: &CuboidAxes, i: usize, j: usize) -> Option<[Feature; 2]> {
+        let across = axes.across_edges(i, j);
+        Some([
+            self.cuboids[0].edge_towards(i, &across)?,
+            self.cuboids[1].edge_towards(j, &-turned_back(&axes.turn, &across))?,
+        ])
+    }
+
+    /// Features that the boxes may touch at, if they hardly overlap along the axis with the largest gap.
+    fn touching_features(
+        &self,
+        axes: &CuboidAxes,
+        axis: Axis,
+        largest: f64,
+    ) -> Option<[Feature; 2]> {
+        if largest < -2.0 * tolerance::TOUCH_DEPTH * self.size {
+            return None;
+        }
+        match parallel_touching(axes, self.size) {
+            Some(points) => Some(self.features_at(&points)),
+            None => self.features_across(axes, axis),
+        }
+    }
+
+    /// The features that face one another along an axis.
+    fn features_across(&self, axes: &CuboidAxes, axis: Axis) -> Option<[Feature; 2]> {
+        match axis {
+            Axis::FaceOfA(k) => {
+                let (is_high, corner) = self.corner_at_a(axes, k)?;
+                Some([
+                    self.cuboids[0].face_across(k, is_high),
+                    Feature::vertex(corner),
+                ])
+            }
+            Axis::FaceOfB(k) => {
+                let (is_high, corner) = self.corner_at_b(axes, k)?;
+                Some([
+                    Feature::vertex(corner),
+                    self.cuboids[1].face_across(k, is_high),
+                ])
+            }
+            Axis::Edges(i, j) => self.edges_across(axes, i, j),
+        }
     }
 
     /// A corner of the other box over the face of one box: the face's normal proves the distance, since no corner of the other
@@ -195,11 +270,7 @@ impl Search<'_> {
 
     #[inline(always)]
     fn between_edges(&self, axes: &CuboidAxes, i: usize, j: usize) -> Option<Closest> {
-        let across = axes.across_edges(i, j);
-        let edges = [
-            self.cuboids[0].edge_towards(i, &across)?,
-            self.cuboids[1].edge_towards(j, &-turned_back(&axes.turn, &across))?,
-        ];
+        let edges = self.edges_across(axes, i, j)?;
         let segment = |side: usize| {
             let placed = self.placed[side];
             placed.edge_ends(placed.shape.edges[edges[side].index as usize])

@@ -20,6 +20,7 @@ mod expanding_polytope;
 mod extreme_vertex;
 mod facet_lines;
 mod facet_normals;
+mod feature_pair;
 mod flat_contact;
 mod gauss_arcs;
 mod level_features;

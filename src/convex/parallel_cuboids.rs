@@ -23,34 +23,58 @@ const CORNERS: [Vector2<f64>; 4] = [
 /// coordinate of the two.
 #[inline(always)]
 pub fn parallel_closest(axes: &CuboidAxes, size: f64) -> Option<[Vec3; 2]> {
-    let (i, j) = parallel_axes(axes)?;
-    let (next, last) = ((i + 1) % 3, (i + 2) % 3);
-    let (next_b, last_b) = ((j + 1) % 3, (j + 2) % 3);
-    let [[a, d], [b, c]] = [[next, last], [next_b, last_b]];
-    let across = Rectangles {
-        half_a: Vector2::new(axes.half_a[a], axes.half_a[d]),
-        half_b: Vector2::new(axes.half_b[b], axes.half_b[c]),
-        between: Vector2::new(axes.between[a], axes.between[d]),
-        turn: [
-            Vector2::new(axes.turn[(a, b)], axes.turn[(d, b)]),
-            Vector2::new(axes.turn[(a, c)], axes.turn[(d, c)]),
-        ],
-    };
-    let flat = across.closest(GAP_ERROR * size)?;
-    let along = Along::of(axes, i, j);
-    let place = |along: usize, height: f64, flat: Vector2<f64>| {
-        let mut place = Vec3::zeros();
-        place[along] = height;
-        place[(along + 1) % 3] = flat.x;
-        place[(along + 2) % 3] = flat.y;
-        place
-    };
-    is_proved(axes, &place(i, along.way, flat.way), size).then(|| {
-        [
-            place(i, along.points[0], flat.points[0]),
-            place(j, along.points[1], flat.points[1]),
-        ]
-    })
+    let found = Candidate::of(axes, size, 0.0)?;
+    is_proved(axes, &found.way, size).then_some(found.points)
+}
+
+/// The same for boxes that may touch, or overlap by no more than a touch: nothing proves these points.
+pub fn parallel_touching(axes: &CuboidAxes, size: f64) -> Option<[Vec3; 2]> {
+    let found = Candidate::of(axes, size, tolerance::TOUCH_DEPTH * size)?;
+    Some(found.points)
+}
+
+/// What the closest points are if the axes are parallel enough.
+struct Candidate {
+    /// Each in its own box's frame.
+    points: [Vec3; 2],
+    /// From B's point to A's, in the frame of A.
+    way: Vec3,
+}
+
+impl Candidate {
+    /// Boxes that overlap along the parallel axes by less than `touch` count as apart there.
+    #[inline(always)]
+    fn of(axes: &CuboidAxes, size: f64, touch: f64) -> Option<Self> {
+        let (i, j) = parallel_axes(axes)?;
+        let (next, last) = ((i + 1) % 3, (i + 2) % 3);
+        let (next_b, last_b) = ((j + 1) % 3, (j + 2) % 3);
+        let [[a, d], [b, c]] = [[next, last], [next_b, last_b]];
+        let across = Rectangles {
+            half_a: Vector2::new(axes.half_a[a], axes.half_a[d]),
+            half_b: Vector2::new(axes.half_b[b], axes.half_b[c]),
+            between: Vector2::new(axes.between[a], axes.between[d]),
+            turn: [
+                Vector2::new(axes.turn[(a, b)], axes.turn[(d, b)]),
+                Vector2::new(axes.turn[(a, c)], axes.turn[(d, c)]),
+            ],
+        };
+        let flat = across.closest(GAP_ERROR * size)?;
+        let along = Along::of(axes, i, j, touch);
+        let place = |along: usize, height: f64, flat: Vector2<f64>| {
+            let mut place = Vec3::zeros();
+            place[along] = height;
+            place[(along + 1) % 3] = flat.x;
+            place[(along + 2) % 3] = flat.y;
+            place
+        };
+        Some(Self {
+            points: [
+                place(i, along.points[0], flat.points[0]),
+                place(j, along.points[1], flat.points[1]),
+            ],
+            way: place(i, along.way, flat.way),
+        })
+    }
 }
 
 /// An axis of each that are parallel.
@@ -75,14 +99,14 @@ struct Along {
 }
 
 impl Along {
-    /// Where the boxes overlap, the low end of what they have in common.
+    /// Where the boxes overlap by more than a touch, the low end of what they have in common.
     #[inline(always)]
-    fn of(axes: &CuboidAxes, i: usize, j: usize) -> Self {
+    fn of(axes: &CuboidAxes, i: usize, j: usize, touch: f64) -> Self {
         let (half_a, half_b, between) = (axes.half_a[i], axes.half_b[j], axes.between[i]);
         let (low, high) = (between - half_b, between + half_b);
-        let (on_a, way) = if low > half_a {
+        let (on_a, way) = if low > half_a - touch {
             (half_a, half_a - low)
-        } else if high < -half_a {
+        } else if high < touch - half_a {
             (-half_a, -half_a - high)
         } else {
             (low.max(-half_a), 0.0)

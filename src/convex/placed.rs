@@ -354,10 +354,20 @@ pub fn gap_of_primitives(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &V
     a.low_along(direction) - b.high_along(direction)
 }
 
-/// The larger of the two gaps along a line, and the unit direction from B to A that has it. `along` is a unit vector of either sign.
-pub fn larger_gap(a: &PlacedPrimitive, b: &PlacedPrimitive, along: &Vec3) -> (f64, Vec3) {
+/// The gaps along a line, the larger one first, each with the unit direction from B to A that has it. `along` is a unit vector of either
+/// sign.
+pub fn gaps_along(a: &PlacedPrimitive, b: &PlacedPrimitive, along: &Vec3) -> [(f64, Vec3); 2] {
     let [ahead, back] = [*along, -along].map(|n| (gap_of_primitives(a, b, &n), n));
-    if back.0 > ahead.0 { back } else { ahead }
+    if back.0 > ahead.0 {
+        [back, ahead]
+    } else {
+        [ahead, back]
+    }
+}
+
+/// The larger of these.
+pub fn larger_gap(a: &PlacedPrimitive, b: &PlacedPrimitive, along: &Vec3) -> (f64, Vec3) {
+    gaps_along(a, b, along)[0]
 }
 
 /// The support function of the hull of the vertices, each named by its index.

@@ -6,6 +6,7 @@ use nalgebra::Vector2;
 use super::closest::Closest;
 use super::contact::{Contact, ContactMode, deepest_first, mode_of};
 use super::contact_normal::ContactPair;
+use super::feature_pair::FeatureTouch;
 use super::placed::{PlacedPrimitive, Precision, gap_of_primitives};
 use super::segment::{Segment, closest_parameters};
 use crate::pose::Vec3;
@@ -78,6 +79,17 @@ pub fn polytope_contacts(
         closest,
         precision,
     };
+    if let Some(touch) = pair.feature_touch() {
+        let closest = Closest {
+            points: touch.points,
+            ..*closest
+        };
+        let pair = ContactPair {
+            closest: &closest,
+            ..pair
+        };
+        return contacts_along(&pair, touch.normal);
+    }
     match pair.normal() {
         Some(normal) => contacts_along(&pair, normal),
         None => Vec::new(),
@@ -97,8 +109,21 @@ pub fn first_of_polytope_contacts(
         closest,
         precision,
     };
+    let mode = listed_mode(&pair);
+    if let Some(mode) = mode
+        && let Some(touch) = pair.feature_touch()
+    {
+        let FeatureTouch { points, normal, .. } = touch;
+        return Some(contact_between(
+            points,
+            closest.features,
+            normal,
+            mode,
+            precision,
+        ));
+    }
     let normal = pair.normal()?;
-    if let Some(mode) = listed_mode(&pair) {
+    if let Some(mode) = mode {
         let (points, features) = (closest.points, closest.features);
         let first = contact_between(points, features, normal, mode, precision);
         // No contact is deeper than the sets overlap along the normal.

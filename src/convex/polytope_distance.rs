@@ -6,10 +6,11 @@ use super::closest::{Closest, closest_features, closest_segments};
 use super::cuboid_distance::segment_to_cuboid;
 use super::cuboids_closest::{CuboidsClosest, cuboids_closest};
 use super::every_feature::{DistanceScratch, Known, closest_of_all};
+use super::feature_pair::{FeatureTouch, feature_normal, foot_in};
 use super::level_features::at_end;
 use super::placed::{PlacedPrimitive, Precision, gap_of_primitives, larger_gap};
 use super::point_to_polygon::point_to_polygon;
-use crate::gjk::{DistanceLimits, NearestCorners, gjk};
+use crate::gjk::{DistanceLimits, Names, NearestCorners, gjk};
 use crate::pose::Vec3;
 use crate::primitive::{Cuboid, Feature, FeatureKind};
 use crate::tolerance;
@@ -52,7 +53,16 @@ fn closest_by_features(
         return match cuboids_closest([a, b], [on_a, on_b], pair.size, limits.cutoff) {
             CuboidsClosest::Beyond => Err(Beyond::SOMEHOW),
             CuboidsClosest::Found(found) => Ok(found),
-            CuboidsClosest::Unknown(start) => bounded_closest(a, b, start, pair, limits, scratch),
+            CuboidsClosest::Unknown {
+                direction,
+                features,
+            } => {
+                let touch = features.and_then(|at| Some((FeatureTouch::at(a, b, at, pair)?, at)));
+                match touch {
+                    Some((touch, features)) => Ok(touch.closest(features, None, pair.error)),
+                    None => bounded_closest(a, b, direction, pair, limits, scratch),
+                }
+            }
         };
     }
     if needs_bounds(a) || needs_bounds(b) {
@@ -226,6 +236,14 @@ fn bounded_closest(
                 .unwrap_or(found));
         }
     }
+    if may_meet
+        && let Some(across) = &bounds.across
+        && let [Some(on_a), Some(on_b)] = features_of([a, b], &across.names)
+        && let Some(touch) = FeatureTouch::at(a, b, [on_a, on_b], pair)
+    {
+        let common = common.map(|points| points[0]);
+        return Ok(touch.closest([on_a, on_b], common, pair.error));
+    }
     let mut attained = bounds.attained;
     if bounds.lower > 0.0 {
         let slack = tolerance::NEAR_SUPPORT * size;
@@ -243,9 +261,10 @@ fn bounded_closest(
         Some(bounds.direction)
     } else {
         // Of sets that touch, the triangle that the search ends with is mostly on the boundary of their difference.
-        let (gap, direction) = larger_gap(a, b, &bounds.across);
-        let is_level = bounds.across != Vec3::zeros() && gap >= -tolerance::TOUCH_DEPTH * size;
-        is_level.then_some(direction)
+        bounds.across.and_then(|across| {
+            let (gap, direction) = larger_gap(a, b, &across.direction);
+            (gap >= -tolerance::TOUCH_DEPTH * size).then_some(direction)
+        })
     };
     let known = Known {
         attained,
@@ -255,15 +274,19 @@ fn bounded_closest(
     Ok(closest_of_all([a, b], &known, pair, scratch))
 }
 
+/// The features that corners of each side span, where they span one.
+fn features_of(sides: [&PlacedPrimitive; 2], names: &[Names; 2]) -> [Option<Feature>; 2] {
+    [0, 1].map(|side| sides[side].feature_of(names[side].as_slice()))
+}
+
 /// The nearest points between the corners that GJK ended with, if the corners of each side span a feature.
 fn between_corners(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
     nearest: &NearestCorners,
 ) -> Option<Closest> {
-    let feature =
-        |placed: &PlacedPrimitive, side: usize| placed.feature_of(nearest.names[side].as_slice());
-    let features = [feature(a, 0)?, feature(b, 1)?];
+    let [on_a, on_b] = features_of([a, b], &nearest.names);
+    let features = [on_a?, on_b?];
     let found = Closest::between(nearest.points, features);
     // The foot of a vertex in a face is more accurate than a combination of corners.
     let [on_a, on_b] = found.points;
@@ -280,13 +303,6 @@ fn between_corners(
     })
 }
 
-/// The foot of a point on a face, if it is inside the face.
-fn foot_in(placed: &PlacedPrimitive, face: Feature, point: &Vec3) -> Option<Vec3> {
-    let face = face.index as usize;
-    let (height, is_over) = placed.over_face(face, point);
-    is_over.then(|| point - placed.normal(face) * height)
-}
-
 /// The largest gap proved by one of these directions: the given one, the one between the points, and the normal of their
 /// features.
 fn certificate(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest, direction: Vec3) -> f64 {
@@ -298,7 +314,7 @@ fn certificate(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest, direct
         }
     };
     offer(found.points[0] - found.points[1]);
-    if let Some(normal) = feature_normal(a, b, found) {
+    if let Some(normal) = feature_normal(a, b, found.features) {
         offer(normal);
     }
     best
@@ -306,27 +322,6 @@ fn certificate(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest, direct
 
 /// The gap along the normal of the closest features, on the side where it is larger; negative where the sets overlap.
 fn gap_along_normal(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest) -> Option<f64> {
-    let normal = feature_normal(a, b, found)?;
+    let normal = feature_normal(a, b, found.features)?;
     Some(larger_gap(a, b, &normal).0)
-}
-
-/// The normal that the features of a contact define by themselves, up to sign: that of a face, or the common
-/// perpendicular of two edges. Exact however close the points are.
-#[inline(always)]
-pub fn feature_normal(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest) -> Option<Vec3> {
-    use FeatureKind::{Edge, Face, Vertex};
-    let [on_a, on_b] = found.features;
-    match (on_a.kind, on_b.kind) {
-        (Vertex, Face) => Some(b.normal(on_b.index as usize)),
-        (Face, Vertex) => Some(a.normal(on_a.index as usize)),
-        (Edge, Edge) => {
-            let along = |placed: &PlacedPrimitive, edge: u32| {
-                let (p, q) = placed.edge_ends(placed.shape.edges[edge as usize]);
-                (q - p).normalize()
-            };
-            let cross = along(a, on_a.index).cross(&along(b, on_b.index));
-            (cross.norm() > tolerance::PARALLEL_EDGES).then(|| cross.normalize())
-        }
-        _ => None,
-    }
 }

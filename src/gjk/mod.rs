@@ -12,7 +12,7 @@ use self::meeting::beginning;
 pub use self::meeting::{Proved, meeting};
 pub use self::refined::{Nearby, RefinedBounds, refined, walked};
 use self::simplex::{Corner, OriginPosition, Simplex};
-pub use self::simplex::{Names, NearestCorners};
+pub use self::simplex::{Names, NearTriangle, NearestCorners};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 use crate::tolerance;
@@ -74,8 +74,8 @@ pub struct Gjk {
     pub near: Option<[Vec3; 2]>,
     /// The closest points found, and the corners they lie between; `None` for sets that overlap.
     pub nearest: Option<NearestCorners>,
-    /// The unit direction, of either sign, across the triangle of the difference that the origin is nearly on; zero where there is none.
-    pub across: Vec3,
+    /// The triangle of the difference that the origin is nearly on, where there is one.
+    pub across: Option<NearTriangle>,
 }
 
 /// The limits at which a distance computation may stop early.
@@ -236,7 +236,7 @@ impl Gjk {
             common: Vec3::zeros(),
             near: None,
             nearest: None,
-            across: Vec3::zeros(),
+            across: None,
         }
     }
 
@@ -265,11 +265,11 @@ impl Gjk {
         }
     }
 
-    /// Takes the direction across the triangle that the origin is nearly on, at a distance from it.
+    /// Takes the triangle that the origin is nearly on, at a distance from it.
     #[inline(always)]
     fn take_across(&mut self, simplex: &Simplex, distance: f64, largest_square: f64) {
         if distance * distance <= NEARLY_ON * NEARLY_ON * largest_square {
-            self.across = simplex.across_nearest().unwrap_or_else(Vec3::zeros);
+            self.across = simplex.nearest_triangle();
         }
     }
 

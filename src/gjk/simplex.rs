@@ -90,6 +90,15 @@ impl Names {
     }
 }
 
+/// A triangle of the difference that the origin is nearly on.
+#[derive(Clone, Copy, Debug)]
+pub struct NearTriangle {
+    /// The unit direction across it, of either sign.
+    pub direction: Vec3,
+    /// The names of its corners, on A and on B.
+    pub names: [Names; 2],
+}
+
 /// Up to four corners, reduced in step with the search.
 #[derive(Clone, Copy)]
 pub struct Simplex {
@@ -393,9 +402,9 @@ impl Simplex {
         })
     }
 
-    /// The unit direction, of either sign, across the triangle nearest to the origin: of a tetrahedron that holds it, across the nearest face.
+    /// The triangle nearest to the origin: of a tetrahedron that holds it, the nearest face.
     #[inline(never)]
-    pub fn across_nearest(&self) -> Option<Vec3> {
+    pub fn nearest_triangle(&self) -> Option<NearTriangle> {
         let faces: &[[usize; 3]] = match self.len {
             3 => &FACES[..1],
             4 => &FACES,
@@ -405,10 +414,14 @@ impl Simplex {
             let a = self.at(i);
             let normal = (self.at(j) - a).cross(&(self.at(k) - a));
             let normal = normal.try_normalize(0.0)?;
-            Some((normal.dot(&a).abs(), normal))
+            Some((normal.dot(&a).abs(), normal, [i, j, k]))
         });
         let nearest = planes.min_by(|one, other| one.0.total_cmp(&other.0));
-        nearest.map(|(_, normal)| normal)
+        nearest.map(|(_, direction, face)| NearTriangle {
+            direction,
+            names: [0, 1]
+                .map(|side: usize| Names::distinct(&face.map(|i| self.corners[i].names[side]))),
+        })
     }
 
     /// The result for an origin on the inner side of all four faces. `weights` combine the corners to about the origin.

@@ -1,14 +1,16 @@
 //! Penetration depths of polyhedra against all normals that a facet of their Minkowski difference can have: each face's, and
 //! the cross product of each two edges, whether the two support along it or not.
 
+use cstk::convex::ContactMode;
 use cstk::pose::{Mat3, Pose, Vec3, rotation_about};
 use cstk::query::{DepthOptions, QueryContext};
 
 use helpers::random::Random;
 use helpers::shapes::{Shape, box_corners, hull, sphere_points};
 
-/// The least translation along any of the lines. One that is no facet's normal is longer, so that none need be left out.
-fn depth_of_all_lines(a: (&Shape, &Pose), b: (&Shape, &Pose)) -> f64 {
+/// The least translation of A along any of the lines that parts the two, and the way; of length 0 if they are apart. A line that is no
+/// facet's normal is longer, so that none need be left out.
+fn way_of_all_lines(a: (&Shape, &Pose), b: (&Shape, &Pose)) -> (f64, Vec3) {
     let origin = a.1.translation;
     let corners = [a, b].map(|(shape, pose)| shape.placed(pose, &origin).concat());
     let [faces, edges] = [0, 1].map(|what| {
@@ -35,12 +37,21 @@ fn depth_of_all_lines(a: (&Shape, &Pose), b: (&Shape, &Pose)) -> f64 {
             [low.min(x), high.max(x)]
         })
     };
-    let depth = |n: Vec3| {
+    let ways = |n: Vec3| {
         let [[low_a, high_a], [low_b, high_b]] = [0, 1].map(|i| extent(&corners[i], &n));
-        (high_b - low_a).min(high_a - low_b)
+        [(high_b - low_a, n), (high_a - low_b, -n)]
     };
     let normals = lines.filter_map(|line| line.try_normalize(1e-13));
-    normals.map(depth).fold(f64::INFINITY, f64::min).max(0.0)
+    let shortest = normals
+        .flat_map(ways)
+        .min_by(|one, other| one.0.total_cmp(&other.0));
+    let (depth, normal) = shortest.unwrap();
+    (depth.max(0.0), normal)
+}
+
+/// How long it is.
+fn depth_of_all_lines(a: (&Shape, &Pose), b: (&Shape, &Pose)) -> f64 {
+    way_of_all_lines(a, b).0
 }
 
 /// Checks one pair; false if the two do not meet.
@@ -171,6 +182,75 @@ fn parallel_and_nearly_parallel_edges_and_faces() {
         }
     }
     assert!(met > 3000, "{met}");
+}
+
+/// Polyhedra that overlap by a little have a contact along the shortest way out, as deep as that is long.
+#[test]
+fn contacts_just_inside_are_along_the_shortest_way_out() {
+    let mut random = Random::new(75);
+    let any = |random: &mut Random| match random.below(9) {
+        0 => hull(&box_corners([1.0; 3])),
+        1 => hull(&box_corners([1.0, 0.7, 1e-3])),
+        2 => prism(3 + random.below(10), 0.5, 0.3),
+        3 => flat(3 + random.below(4), 0.5),
+        4 => ball(30, random),
+        5 => hull(&random.points(4, 1.0)),
+        _ => random_hull(random),
+    };
+    let (mut met, mut edges) = (0, 0);
+    for case in 0..4000 {
+        let shapes = [any(&mut random), any(&mut random)];
+        let mut poses = [random.pose(0.2), random.pose(0.2)];
+        match case % 4 {
+            0 => poses[1].rotation = poses[0].rotation,
+            1 => {
+                let spin = rotation_about(&Vec3::z(), random.within(-3.0, 3.0));
+                poses[1].rotation = poses[0].rotation * spin;
+            }
+            _ => {}
+        }
+        let at = |poses: &[Pose; 2]| {
+            let [a, b] = [0, 1].map(|i| (&shapes[i], poses[i]));
+            way_of_all_lines((a.0, &a.1), (b.0, &b.1))
+        };
+        let size = shapes[0].body.radius() + shapes[1].body.radius();
+        let (depth, way) = at(&poses);
+        let left = size * 10f64.powf(random.within(-14.0, -7.0));
+        if depth <= left {
+            continue;
+        }
+        poses[0].translation += way * (depth - left);
+        let (want, _) = at(&poses);
+        for [i, j] in [[0, 1], [1, 0]] {
+            let sides = [i, j].map(|k| (&*shapes[k].body, &poses[k]));
+            let mut context = QueryContext::new();
+            let found = context
+                .pair_distance(sides[0], sides[1], f64::INFINITY)
+                .unwrap();
+            assert_eq!(found.distance, 0.0, "{case}");
+            let Some(contact) = found.contact else {
+                // Surfaces that cross by more than a touch have no inside.
+                let is_flat = |shape: &Shape| shape.body.primitives().get(0).shape.faces.len() == 1;
+                assert!(want > 1e-10 * size && shapes.iter().all(is_flat), "{case}");
+                continue;
+            };
+            let off = (contact.clearance + want).abs();
+            assert!(
+                off <= 1e-13 * size,
+                "{case}: {} for {want}",
+                contact.clearance
+            );
+            let moved = Pose {
+                translation: poses[i].translation + contact.normal * want,
+                ..poses[i]
+            };
+            let parted = way_of_all_lines((&shapes[i], &moved), (&shapes[j], &poses[j])).0;
+            assert!(parted <= 2e-13 * size, "{case}: {parted:e} are left");
+            edges += usize::from(contact.mode == ContactMode::EdgeEdge);
+        }
+        met += 1;
+    }
+    assert!(met > 2000 && edges > 500, "{met} {edges}");
 }
 
 #[test]
