@@ -215,7 +215,12 @@ impl Search<'_> {
         if largest < -2.0 * tolerance::TOUCH_DEPTH * self.size {
             return None;
         }
-        match parallel_touching(axes, self.size) {
+        let level = match axis {
+            Axis::FaceOfA(k) => parallel_touching(axes, (0, k), self.size),
+            Axis::FaceOfB(k) => parallel_touching(axes, (1, k), self.size),
+            Axis::Edges(..) => None,
+        };
+        match level {
             Some(points) => Some(self.features_at(&points)),
             None => self.features_across(axes, axis),
         }

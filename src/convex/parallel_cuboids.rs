@@ -23,13 +23,19 @@ const CORNERS: [Vector2<f64>; 4] = [
 /// coordinate of the two.
 #[inline(always)]
 pub fn parallel_closest(axes: &CuboidAxes, size: f64) -> Option<[Vec3; 2]> {
-    let found = Candidate::of(axes, size, 0.0)?;
+    let found = Candidate::of(axes, parallel_axes(axes, |_| true)?, size, 0.0)?;
     is_proved(axes, &found.way, size).then_some(found.points)
 }
 
-/// The same for boxes that may touch, or overlap by no more than a touch: nothing proves these points.
-pub fn parallel_touching(axes: &CuboidAxes, size: f64) -> Option<[Vec3; 2]> {
-    let found = Candidate::of(axes, size, tolerance::TOUCH_DEPTH * size)?;
+/// The same for boxes that may touch across this axis of one of them, 0 for A, or overlap there by no more than a touch: nothing proves
+/// these points.
+pub fn parallel_touching(
+    axes: &CuboidAxes,
+    (side, axis): (usize, usize),
+    size: f64,
+) -> Option<[Vec3; 2]> {
+    let pair = parallel_axes(axes, |pair| pair[side] == axis)?;
+    let found = Candidate::of(axes, pair, size, tolerance::TOUCH_DEPTH * size)?;
     Some(found.points)
 }
 
@@ -44,8 +50,7 @@ struct Candidate {
 impl Candidate {
     /// Boxes that overlap along the parallel axes by less than `touch` count as apart there.
     #[inline(always)]
-    fn of(axes: &CuboidAxes, size: f64, touch: f64) -> Option<Self> {
-        let (i, j) = parallel_axes(axes)?;
+    fn of(axes: &CuboidAxes, [i, j]: [usize; 2], size: f64, touch: f64) -> Option<Self> {
         let (next, last) = ((i + 1) % 3, (i + 2) % 3);
         let (next_b, last_b) = ((j + 1) % 3, (j + 2) % 3);
         let [[a, d], [b, c]] = [[next, last], [next_b, last_b]];
@@ -77,14 +82,15 @@ impl Candidate {
     }
 }
 
-/// An axis of each that are parallel.
+/// An axis of each that are parallel, of those asked for.
 #[inline(always)]
-fn parallel_axes(axes: &CuboidAxes) -> Option<(usize, usize)> {
+fn parallel_axes(axes: &CuboidAxes, is_asked: impl Fn([usize; 2]) -> bool) -> Option<[usize; 2]> {
     for i in 0..3 {
         let row = each3(|j| axes.turn[(i, j)].abs());
         for j in 0..3 {
-            if row[(j + 1) % 3].max(row[(j + 2) % 3]) <= tolerance::PARALLEL_AXES {
-                return Some((i, j));
+            let off = row[(j + 1) % 3].max(row[(j + 2) % 3]);
+            if off <= tolerance::PARALLEL_AXES && is_asked([i, j]) {
+                return Some([i, j]);
             }
         }
     }
