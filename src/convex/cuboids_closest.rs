@@ -80,6 +80,7 @@ impl Work for Search<'_> {
         if largest > self.cutoff + error {
             return CuboidsClosest::Beyond;
         }
+        let of_faces = (largest, axis);
         // The overlap along each axis is at least this; nearly parallel edges separate hardly better than faces do.
         let mut overlap = -largest - error - 8.0 * tolerance::PARALLEL_EDGES * self.size;
         for i in 0..3 {
@@ -111,10 +112,17 @@ impl Work for Search<'_> {
         };
         match found {
             Some(found) => CuboidsClosest::Found(found),
-            None => CuboidsClosest::Unknown {
-                direction: self.direction(&axes, axis),
-                features: self.touching_features(&axes, axis, largest),
-            },
+            None => {
+                // Where axes are parallel, edges are across a face's axis too.
+                let touching = match largest <= of_faces.0 + error {
+                    true => of_faces.1,
+                    false => axis,
+                };
+                CuboidsClosest::Unknown {
+                    direction: self.direction(&axes, axis),
+                    features: self.touching_features(&axes, touching, largest),
+                }
+            }
         }
     }
 }

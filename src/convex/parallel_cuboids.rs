@@ -110,14 +110,14 @@ impl Along {
     fn of(axes: &CuboidAxes, i: usize, j: usize, touch: f64) -> Self {
         let (half_a, half_b, between) = (axes.half_a[i], axes.half_b[j], axes.between[i]);
         let (low, high) = (between - half_b, between + half_b);
-        let (on_a, way) = if low > half_a - touch {
-            (half_a, half_a - low)
+        let (on_a, on_b, way) = if low > half_a - touch {
+            (half_a, -half_b, half_a - low)
         } else if high < touch - half_a {
-            (-half_a, -half_a - high)
+            (-half_a, half_b, -half_a - high)
         } else {
-            (low.max(-half_a), 0.0)
+            let common = low.max(-half_a);
+            (common, (common - between).clamp(-half_b, half_b), 0.0)
         };
-        let on_b = (on_a - between).clamp(-half_b, half_b);
         Self {
             points: [on_a, on_b * axes.turn[(i, j)].signum()],
             way,
