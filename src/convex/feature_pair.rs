@@ -172,3 +172,72 @@ fn margin_of_feet(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pose::Pose;
+    use crate::primitive::{Convex, block, convex_polyhedron};
+
+    /// A pyramid whose apex points down and back, and is its lowest corner along x and along z.
+    fn pyramid(apex: Vec3) -> Convex {
+        let base = [
+            [1.0, 0.3, 0.5],
+            [1.0, -0.3, 0.5],
+            [0.5, 0.3, 1.0],
+            [0.5, -0.3, 1.0],
+        ];
+        let mut corners = vec![apex];
+        corners.extend(base.map(|arm| apex + Vec3::from(arm)));
+        convex_polyhedron(&corners).unwrap()
+    }
+
+    /// What the cube of half length 1 touches at its upper face with this corner of a pyramid, and whether that is the shortest way out.
+    fn touch(apex: Vec3, corner: Vec3) -> Option<bool> {
+        let shapes = [
+            pyramid(apex),
+            block(&Pose::identity(), &Vec3::repeat(1.0)).unwrap(),
+        ];
+        let [a, b] = shapes
+            .each_ref()
+            .map(|shape| PlacedPrimitive::at_home(shape, None));
+        let corner = a
+            .vertices()
+            .iter()
+            .position(|at| (at - corner).norm() < 1e-9);
+        let upper = b.shape.faces.iter().position(|face| face.normal.z > 0.5);
+        let features = [
+            Feature::vertex(corner.unwrap() as u32),
+            Feature::face(upper.unwrap() as u32),
+        ];
+        let pair = Precision {
+            size: 2.0,
+            error: tolerance::DISTANCE_ERROR * 2.0,
+            planar: false,
+        };
+        let found = FeatureTouch::at(&a, &b, features, &pair)?;
+        assert!((found.height - (apex.z - 1.0)).abs() < 1e-15 && found.normal == Vec3::z());
+        Some(found.is_least(&a, &b, features, pair.size))
+    }
+
+    #[test]
+    fn the_nearest_facet_is_told_by_where_its_foot_is() {
+        let depth = 1e-11;
+        let inside = Vec3::new(0.4, 0.0, 1.0 - depth);
+        assert_eq!(touch(inside, inside), Some(true));
+        assert_eq!(
+            touch(Vec3::new(0.4, 0.0, 1.0), Vec3::new(0.4, 0.0, 1.0)),
+            Some(true)
+        );
+        // Out along x is a third as far.
+        let at_edge = Vec3::new(1.0 - depth / 3.0, 0.0, 1.0 - depth);
+        assert_eq!(touch(at_edge, at_edge), Some(false));
+        // Beside the face, deeper than a touch, and another corner than the lowest.
+        let beside = Vec3::new(1.1, 0.0, 1.0 - depth);
+        assert_eq!(touch(beside, beside), None);
+        let deep = Vec3::new(0.4, 0.0, 1.0 - 1e-8);
+        assert_eq!(touch(deep, deep), None);
+        let apex = Vec3::new(-0.5, 0.0, 1.0 - depth);
+        assert_eq!(touch(apex, apex + Vec3::new(1.0, 0.3, 0.5)), None);
+    }
+}
