@@ -1,8 +1,8 @@
 //! A point outside a box, a cylinder or a cone: the nearest point there, and the normal. They are those of `distance.rs` and
 //! `contacts.rs`, but the distance is known before either is computed.
 
-use super::contact_normal::across;
 use super::cuboid_distance::way_from_cuboid;
+use super::feature_pair::across;
 use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_smooth::way_from_smooth;
 use super::polytope_distance::{cuboid, snapped};

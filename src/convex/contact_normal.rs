@@ -1,29 +1,20 @@
 //! The normal of a contact. Where features define it, it is exact at any distance; at touch it is the direction of least
 //! overlap.
 
-use smallvec::SmallVec;
-
 use super::closest::Closest;
 use super::contact::mode_of;
-use super::feature_pair::{FeatureTouch, feature_normal};
+use super::feature_pair::{FeatureTouch, across, feature_normal};
+use super::local_features::{Directions, local_normals};
 use super::placed::{PlacedPrimitive, Precision, gap_of_primitives};
-use super::segment::Segment;
 use super::ways_out::shortest_way;
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind};
 use crate::tolerance;
 use crate::work_meter::WorkMeter;
 
-/// At most 4096 edge pairs are tried, where fans of very many edges meet at two touching vertices. A larger value takes
-/// longer at such vertices, a smaller one leaves contacts just inside without a normal.
-const MAX_EDGE_PAIRS: usize = 4096;
-
 /// The normal of the features is along the closest points to within a cosine of this. Nearly parallel edges that are very short for where
 /// they lie may have another: then their closest points are at their ends.
 const MIN_AGREEMENT: f64 = 1.0 - 1e-6;
-
-/// A list of usually few directions.
-type Directions = SmallVec<[Vec3; 16]>;
 
 /// A primitive pair with its closest points, in a common frame.
 #[derive(Clone, Copy)]
@@ -114,7 +105,7 @@ impl ContactPair<'_> {
     fn normal_of_parallel(&self, between: Vec3) -> Vec3 {
         let mut best = (gap_of_primitives(self.r, self.s, &between), between);
         let least = tolerance::SUPPORT_ERROR * self.precision.size;
-        for candidate in self.local_normals() {
+        for candidate in self.candidates() {
             let candidate = oriented(candidate, &between);
             let gap = gap_of_primitives(self.r, self.s, &candidate);
             if gap > best.0 + least {
@@ -124,11 +115,16 @@ impl ContactPair<'_> {
         best.1
     }
 
+    /// The normals of the features around the closest points.
+    fn candidates(&self) -> Directions {
+        local_normals([self.r, self.s], &self.closest.points, self.precision)
+    }
+
     /// The candidate normal nearest to a unit direction, or the direction itself where none is within `doubt` of it.
     #[inline(never)]
     fn normal_near(&self, direct: Vec3, doubt: f64) -> Vec3 {
         let mut best = (doubt, direct);
-        for candidate in self.local_normals() {
+        for candidate in self.candidates() {
             let candidate = oriented(candidate, &direct);
             let off = (candidate - direct).norm();
             if off <= best.0 {
@@ -146,7 +142,7 @@ impl ContactPair<'_> {
         // No direction has a larger gap, so that no candidate after one with this replaces it.
         let most = self.closest.distance + self.precision.error + rounding;
         let mut best: Option<(f64, Vec3)> = None;
-        for candidate in self.local_normals() {
+        for candidate in self.candidates() {
             if best.is_some_and(|(gap, _)| gap + tie >= most) {
                 break;
             }
@@ -187,43 +183,6 @@ impl ContactPair<'_> {
         let found = shortest_way(self.r, self.s, self.precision, meter);
         (found.depth <= most).then_some(found.direction)
     }
-
-    /// The candidate normals of the features around the closest points: face normals, cross products of edge pairs, and the
-    /// normals of a flat polygon's edges within its plane. Unit vectors.
-    fn local_normals(&self) -> Directions {
-        let near = tolerance::NEAR_FEATURE * self.precision.size;
-        let local_r = LocalFeatures::around(self.r, &self.closest.points[0], near);
-        let local_s = LocalFeatures::around(self.s, &self.closest.points[1], near);
-        let mut found = Directions::new();
-        let mut offer = |candidate: Vec3| {
-            let in_plane = if self.precision.planar {
-                Vec3::new(candidate.x, candidate.y, 0.0)
-            } else {
-                candidate
-            };
-            found.extend(in_plane.try_normalize(tolerance::PARALLEL_EDGES));
-        };
-        for normal in local_r.normals.iter().chain(&local_s.normals) {
-            offer(*normal);
-        }
-        let pairs = local_r.directions.iter().flat_map(|along_r| {
-            local_s
-                .directions
-                .iter()
-                .map(|along_s| along_r.cross(along_s))
-        });
-        pairs.take(MAX_EDGE_PAIRS).for_each(&mut offer);
-        for local in [&local_r, &local_s] {
-            if local.is_flat {
-                for along in &local.directions {
-                    for normal in &local.normals {
-                        offer(along.cross(normal));
-                    }
-                }
-            }
-        }
-        found
-    }
 }
 
 /// A normal of either sign, on the side of a direction.
@@ -234,17 +193,6 @@ fn oriented(normal: Vec3, direction: &Vec3) -> Vec3 {
     } else {
         normal
     }
-}
-
-/// A vector without its component along a feature, if that is an edge.
-#[inline(always)]
-pub(super) fn across(placed: &PlacedPrimitive, feature: Feature, vector: Vec3) -> Vec3 {
-    if feature.kind != FeatureKind::Edge {
-        return vector;
-    }
-    let (p, q) = placed.edge_ends(placed.shape.edges[feature.index as usize]);
-    let along = (q - p).normalize();
-    vector - along * along.dot(&vector)
 }
 
 /// The depth of a point below the boundary of a set; at most 0 where it is not inside, or the set has no inside.
@@ -267,61 +215,4 @@ fn depth_below(placed: &PlacedPrimitive, point: &Vec3, planar: bool) -> f64 {
         placed.normal(f).dot(&(corner - point))
     };
     faces.map(depth).fold(f64::INFINITY, f64::min)
-}
-
-/// The face normals and edge directions of the features that hold a point.
-pub struct LocalFeatures {
-    normals: Directions,
-    pub directions: Directions,
-    is_flat: bool,
-}
-
-impl LocalFeatures {
-    pub fn around(placed: &PlacedPrimitive, point: &Vec3, near: f64) -> Self {
-        let faces: SmallVec<[usize; 16]> = placed.faces_at(point, near).collect();
-        let mut directions = Directions::new();
-        for edge in edges_of(placed, &faces) {
-            let (p, q) = placed.edge_ends(placed.shape.edges[edge as usize]);
-            let (along, arm) = (q - p, point - p);
-            // Most edges are farther away than their lines, which is quick to tell.
-            let square = 2.0 * near * near * along.norm_squared();
-            if arm.cross(&along).norm_squared() > square {
-                continue;
-            }
-            let segment = Segment::new((p, q));
-            let nearest = segment.at(segment.nearest_parameter(point));
-            if (nearest - point).norm() <= near {
-                directions.extend(along.try_normalize(0.0));
-            }
-        }
-        let normals = faces.iter().map(|&face| placed.normal(face)).collect();
-        Self {
-            normals,
-            directions,
-            is_flat: placed.shape.faces.len() == 1,
-        }
-    }
-}
-
-/// The edges of some faces, and others that end in their corners, in the order of their numbers: all edges where it is not known which
-/// meet in a corner.
-fn edges_of(placed: &PlacedPrimitive, faces: &[usize]) -> SmallVec<[u32; 64]> {
-    let Some(incidence) = placed.incidence() else {
-        return (0..placed.shape.edges.len() as u32).collect();
-    };
-    // Each once: an apex is a corner of all faces around it.
-    let mut corners: SmallVec<[u32; 64]> = faces
-        .iter()
-        .flat_map(|&face| placed.shape.faces[face].vertices.iter().copied())
-        .collect();
-    corners.sort_unstable();
-    corners.dedup();
-    let mut edges: SmallVec<[u32; 64]> = corners
-        .iter()
-        .flat_map(|&corner| incidence.edges_of(corner))
-        .copied()
-        .collect();
-    edges.sort_unstable();
-    edges.dedup();
-    edges
 }

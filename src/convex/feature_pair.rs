@@ -33,6 +33,17 @@ pub fn feature_normal(
     }
 }
 
+/// A vector without its component along a feature, if that is an edge.
+#[inline(always)]
+pub fn across(placed: &PlacedPrimitive, feature: Feature, vector: Vec3) -> Vec3 {
+    if feature.kind != FeatureKind::Edge {
+        return vector;
+    }
+    let (p, q) = placed.edge_ends(placed.shape.edges[feature.index as usize]);
+    let along = (q - p).normalize();
+    vector - along * along.dot(&vector)
+}
+
 /// The points of such features that are each other's feet: a corner and its foot inside a face, or the crossing of two edges between
 /// their ends.
 #[inline(always)]
@@ -132,18 +143,32 @@ impl FeatureTouch {
         margin >= depth && margin.min(self.width) * self.width >= 48.0 * depth * size
     }
 
-    /// The closest points. `common` is a point of both sets, if one is known.
-    pub fn closest(&self, features: [Feature; 2], common: Option<Vec3>, error: f64) -> Closest {
-        if self.height >= -error {
-            return Closest::between(self.points, features);
+    /// The closest points; `None` where the sets overlap, and these features are not proved to be those of the shortest way out, or no point
+    /// of both sets is known. `common` is one, or none.
+    pub fn closest(
+        &self,
+        [a, b]: [&PlacedPrimitive; 2],
+        features: [Feature; 2],
+        common: Option<Vec3>,
+        pair: &Precision,
+    ) -> Option<Closest> {
+        if self.height >= -pair.error {
+            return Some(Closest::between(self.points, features));
         }
-        // A corner below a face is in both sets; of edges that have passed each other, what is between them.
-        let between = match features.map(|feature| feature.kind) {
-            [FeatureKind::Vertex, _] => self.points[0],
-            [_, FeatureKind::Vertex] => self.points[1],
-            _ => 0.5 * (self.points[0] + self.points[1]),
-        };
-        Closest::meeting_at(common.unwrap_or(between), features)
+        if !self.is_least(a, b, features, pair.size) {
+            return None;
+        }
+        let common = common.or_else(|| {
+            // A corner below a face is mostly in both sets; of edges that have passed each other, what is between them.
+            let between = match features.map(|feature| feature.kind) {
+                [FeatureKind::Vertex, _] => self.points[0],
+                [_, FeatureKind::Vertex] => self.points[1],
+                _ => 0.5 * (self.points[0] + self.points[1]),
+            };
+            let is_held = |side: &&PlacedPrimitive| side.holds(&between, pair.error);
+            [a, b].iter().all(is_held).then_some(between)
+        });
+        Some(Closest::meeting_at(common?, features))
     }
 }
 

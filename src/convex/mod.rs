@@ -25,6 +25,7 @@ mod flat_contact;
 mod gauss_arcs;
 mod level_features;
 mod likely_parts;
+mod local_features;
 mod near_ways;
 mod nearest_edges;
 mod nearest_parts;

@@ -263,22 +263,29 @@ impl<'a> PlacedPrimitive<'a> {
 
     /// The faces in whose planes a point lies, to within `near`.
     pub fn faces_at(&self, point: &Vec3, near: f64) -> impl Iterator<Item = usize> {
+        let heights = self.heights_over(point);
+        let faces = heights.enumerate();
+        faces.filter_map(move |(face, height)| (height.abs() <= near).then_some(face))
+    }
+
+    /// The heights of a point over the planes of the faces, in their order.
+    fn heights_over(&self, point: &Vec3) -> impl Iterator<Item = f64> {
         // The point is turned once, not each normal.
         let turned = match self.vertices {
             Vertices::Moved { home, .. } => Some((home, self.seen(point))),
             Vertices::Here(home) => Some((home, *point)),
             Vertices::Shifted { .. } => None,
         };
-        let height = move |face: usize| match &turned {
+        let point = *point;
+        (0..self.shape.faces.len()).map(move |face| match &turned {
             Some((home, seen)) => {
                 let Face {
                     vertices, normal, ..
                 } = &self.shape.faces[face];
                 normal.dot(&(seen - home[vertices[0] as usize]))
             }
-            None => self.height_over(face, point),
-        };
-        (0..self.shape.faces.len()).filter(move |&face| height(face).abs() <= near)
+            None => self.height_over(face, &point),
+        })
     }
 
     /// The height of `point` over face `face`, and whether its foot lies inside the face.
@@ -327,6 +334,20 @@ impl<'a> PlacedPrimitive<'a> {
                 let from_face = point - self.vertex(face.vertices[0]);
                 self.normal(f).dot(&from_face) <= 0.0
             })
+    }
+
+    /// Whether a solid or a flat polygon holds the point, up to a height of `slack` over its faces.
+    pub fn holds(&self, point: &Vec3, slack: f64) -> bool {
+        if let Some(cuboid) = self.form.and_then(Form::cuboid) {
+            let seen = cuboid.seen(&self.seen(point));
+            return (seen.abs() - cuboid.half).max() <= slack;
+        }
+        if self.shape.is_solid() {
+            return self.heights_over(point).all(|height| height <= slack);
+        }
+        self.shape.is_flat()
+            && self.height_over(0, point).abs() <= slack
+            && self.depth_in_face(0, point) >= -slack
     }
 
     /// The least of `direction . x` over the primitive's vertices.

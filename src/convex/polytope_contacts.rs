@@ -193,12 +193,20 @@ fn contacts_within(slack: f64, pair: &ContactPair, normal: Vec3) -> Vec<Contact>
         precision,
         contacts: Vec::new(),
     };
-    if listed_mode(pair).is_some() {
+    let has_mode = listed_mode(pair).is_some();
+    // Of sets that overlap the closest points are a common one, less deep than the corner or the crossing next to it.
+    let is_common = has_mode
+        && closest.distance <= precision.error
+        && gap_of_primitives(r, s, &normal) < -precision.error;
+    if has_mode && !is_common {
         list.offer(closest.points, closest.features);
     }
     list.offer_corners(&sides, slack);
     if !precision.planar {
         list.offer_crossings(&sides, slack);
+    }
+    if is_common {
+        list.offer(closest.points, closest.features);
     }
     let mut found = list.contacts;
     deepest_first(&mut found, precision);

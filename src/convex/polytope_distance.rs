@@ -6,8 +6,9 @@ use super::closest::{Closest, closest_features, closest_segments};
 use super::cuboid_distance::segment_to_cuboid;
 use super::cuboids_closest::{CuboidsClosest, cuboids_closest};
 use super::every_feature::{DistanceScratch, Known, closest_of_all};
-use super::feature_pair::{FeatureTouch, feature_normal, foot_in};
+use super::feature_pair::{FeatureTouch, across, feature_normal, foot_in};
 use super::level_features::at_end;
+use super::local_features::local_normals;
 use super::placed::{PlacedPrimitive, Precision, gap_of_primitives, larger_gap};
 use super::point_to_polygon::point_to_polygon;
 use crate::gjk::{DistanceLimits, Names, NearestCorners, gjk};
@@ -56,13 +57,10 @@ fn closest_by_features(
             CuboidsClosest::Unknown {
                 direction,
                 features,
-            } => {
-                let touch = features.and_then(|at| Some((FeatureTouch::at(a, b, at, pair)?, at)));
-                match touch {
-                    Some((touch, features)) => Ok(touch.closest(features, None, pair.error)),
-                    None => bounded_closest(a, b, direction, pair, limits, scratch),
-                }
-            }
+            } => match features.and_then(|features| touch_of([a, b], features, None, pair)) {
+                Some(found) => Ok(found),
+                None => bounded_closest(a, b, direction, pair, limits, scratch),
+            },
         };
     }
     if needs_bounds(a) || needs_bounds(b) {
@@ -239,10 +237,9 @@ fn bounded_closest(
     if may_meet
         && let Some(across) = &bounds.across
         && let [Some(on_a), Some(on_b)] = features_of([a, b], &across.names)
-        && let Some(touch) = FeatureTouch::at(a, b, [on_a, on_b], pair)
+        && let Some(found) = touch_of([a, b], [on_a, on_b], common.map(|[point, _]| point), pair)
     {
-        let common = common.map(|points| points[0]);
-        return Ok(touch.closest([on_a, on_b], common, pair.error));
+        return Ok(found);
     }
     let mut attained = bounds.attained;
     if bounds.lower > 0.0 {
@@ -271,7 +268,41 @@ fn bounded_closest(
         direction,
         common: common.map(|points| points[0]),
     };
-    Ok(closest_of_all([a, b], &known, pair, scratch))
+    let mut found = closest_of_all([a, b], &known, pair, scratch);
+    if found.distance > pair.error {
+        found.doubt = doubt_of([a, b], &found, direction, pair);
+    }
+    Ok(found)
+}
+
+/// By how much no direction proves the distance of points that were found by comparing features. Of faces that are nearly coplanar rounding
+/// may leave none over which a corner is, so that others are taken to be nearest.
+fn doubt_of(
+    [a, b]: [&PlacedPrimitive; 2],
+    found: &Closest,
+    direction: Option<Vec3>,
+    pair: &Precision,
+) -> f64 {
+    let proved_at_least = found.distance - tolerance::CERTIFIED_GAP * pair.size;
+    let between = (found.points[0] - found.points[1]) / found.distance;
+    let mut proved = certificate(a, b, found, direction.unwrap_or(between));
+    if proved < proved_at_least {
+        let normals = local_normals([a, b], &found.points, pair).into_iter();
+        let gaps = normals.map(|normal| larger_gap(a, b, &normal).0);
+        proved = gaps.fold(proved, f64::max);
+    }
+    (proved_at_least - proved.max(0.0)).max(0.0)
+}
+
+/// The closest points of sets that touch at two features, if their own normal proves it. `common` is a point of both sets, or none.
+fn touch_of(
+    sides: [&PlacedPrimitive; 2],
+    features: [Feature; 2],
+    common: Option<Vec3>,
+    pair: &Precision,
+) -> Option<Closest> {
+    let touch = FeatureTouch::at(sides[0], sides[1], features, pair)?;
+    touch.closest(sides, features, common, pair)
 }
 
 /// The features that corners of each side span, where they span one.
@@ -313,7 +344,11 @@ fn certificate(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest, direct
             best = best.max(gap_of_primitives(a, b, &n));
         }
     };
-    offer(found.points[0] - found.points[1]);
+    let [on_a, on_b] = found.features;
+    let between = found.points[0] - found.points[1];
+    offer(between);
+    // What it has along edges is rounding.
+    offer(across(b, on_b, across(a, on_a, between)));
     if let Some(normal) = feature_normal(a, b, found.features) {
         offer(normal);
     }

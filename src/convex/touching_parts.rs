@@ -3,8 +3,8 @@
 
 use smallvec::SmallVec;
 
-use super::contact_normal::LocalFeatures;
 use super::core::Core;
+use super::local_features::LocalFeatures;
 use super::nearest_parts::{NearestParts, direction_on_both};
 use super::polytope_distance::cuboid;
 use super::surface_part::SurfacePart;

@@ -3,13 +3,13 @@
 
 use cstk::convex::ContactMode;
 use cstk::pose::{Pose, Vec3, rotation_about};
-use cstk::primitive::{Feature, FeatureKind};
+use cstk::primitive::FeatureKind;
 use cstk::query::{ContactsListed, QueryContext};
 
 use helpers::differences::rows;
 use helpers::random::Random;
 use helpers::robots::{against, environment, free_body, space};
-use helpers::shapes::{Shape, box_corners, cuboid, hull, planar};
+use helpers::shapes::{Shape, box_corners, cuboid, hull, off_feature, planar};
 use helpers::touch::{Touch, check_touch, lowest};
 
 /// The closed form for a body that moves freely in space: the normal itself, and its moment about each axis.
@@ -161,17 +161,6 @@ fn edge_across_edge() {
             done += 1;
         }
     }
-}
-
-/// How far a point is from a feature of the only primitive: from the hull of its vertices.
-fn off_feature((shape, pose): (&Shape, &Pose), feature: Feature, point: &Vec3) -> f64 {
-    let primitive = shape.body.primitives().get(0).shape;
-    let corners = primitive.feature_vertices(feature).unwrap();
-    let placed = corners.iter().map(|&i| {
-        let corner = primitive.vertices[i as usize] + shape.body.center();
-        pose.transform_point(&corner)
-    });
-    helpers::oracle::hull_distance(&placed.collect::<Vec<_>>(), &[*point]).upper
 }
 
 /// A prism whose caps fall into triangles, as their corners are off one plane by rounding, on a block: each contact names the triangle

@@ -1,4 +1,4 @@
-//! Boxes whose faces are off being level by next to nothing, as poses of nine digits make them.
+//! Boxes whose faces are off being level by next to nothing, as poses of nine digits make them, and hulls whose faces hardly differ.
 
 use cstk::body::BodyBuilder;
 use cstk::pose::{Mat3, Pose, Vec3};
@@ -166,5 +166,72 @@ fn boxes_that_are_nearly_level_have_a_contact() {
         }
         let off = contact.points[0] - contact.points[1] - contact.normal * found.distance;
         assert!(off.norm() < 1e-9, "{off} {contact:?}");
+    }
+}
+
+/// Two points of a hull with faces that are level but for 1e-13, on a needle: within 1e-12 of each other, by exact arithmetic. Far from
+/// home no corner is over any of these faces, so that the nearest features found are others. No distance is proved then.
+#[test]
+fn faces_that_hardly_differ_prove_no_distance() {
+    let hull = |corners: &[[f64; 3]]| {
+        let corners: Vec<Vec3> = corners.iter().map(|&corner| corner.into()).collect();
+        let mut builder = BodyBuilder::new(3).unwrap();
+        builder.add_polyhedron(&corners, 0).unwrap();
+        helpers::models::built(&builder, &Default::default())
+    };
+    let block = hull(&[
+        [96.5, 224.5, 162.0],
+        [96.5, 223.49999999999994, 162.00000000000006],
+        [96.5, 224.5, 158.0],
+        [95.5, 223.5, 158.0],
+        [96.5, 223.5, 158.0],
+        [95.5, 224.5, 158.0],
+        [95.5, 223.5, 162.0],
+        [95.5, 224.5, 162.0],
+        [96.07849678307109, 224.50000000000026, 159.58967386000072],
+        [95.5947794892432, 224.50000000000026, 161.10370831401673],
+    ]);
+    let wide = 0.0067658234670659265;
+    let needle = hull(&[
+        [1.5, 0.0, 0.0],
+        [0.75, wide, 0.0],
+        [-0.75, wide, 0.0],
+        [-1.5, -3.9191856348971346e-22, 0.0],
+        [-0.75, -wide, 0.0],
+        [0.75, -wide, 0.0],
+    ]);
+    let poses = [
+        pose([
+            [
+                0.9440373558540632,
+                0.13351094389231213,
+                0.3016095134657605,
+                -168.80866098483187,
+            ],
+            [
+                0.30433411365876706,
+                -1.348150971061065e-33,
+                -0.9525653506524016,
+                123.52962898084277,
+            ],
+            [
+                -0.1271778990847134,
+                0.9910473388597458,
+                -0.04063193477321219,
+                -203.79339479225828,
+            ],
+        ]),
+        pose([
+            [0.0, 0.0, -1.0, 0.0],
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, -1.0, 0.0, 0.0],
+        ]),
+    ];
+    let sides = [(&block, &poses[0]), (&needle, &poses[1])];
+    for (a, b) in [(sides[0], sides[1]), (sides[1], sides[0])] {
+        let found = QueryContext::new()
+            .pair_distance(a, b, f64::INFINITY)
+            .unwrap();
+        assert!(found.lower <= 1e-12, "{found:?}");
     }
 }

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use cstk::body::{Body, BodyBuilder, Mesh};
 use cstk::hierarchy::HierarchyOptions;
 use cstk::pose::{Pose, Vec3};
+use cstk::primitive::Feature;
 
-use super::oracle::moved_exactly;
+use super::oracle::{hull_distance, moved_exactly};
 
 /// A body and, for each of its primitives in order, the vertices given.
 #[derive(Clone)]
@@ -198,4 +199,15 @@ pub fn pair_size(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) -> f64 {
     let origin = pose_a.transform_point(a.body.center());
     let center_b = moved_exactly(b.body.center(), pose_b, &origin);
     a.body.radius().max(center_b.norm() + b.body.radius())
+}
+
+/// How far a point is from a feature of the only primitive: from the hull of its vertices.
+pub fn off_feature((shape, pose): (&Shape, &Pose), feature: Feature, point: &Vec3) -> f64 {
+    let primitive = shape.body.primitives().get(0).shape;
+    let corners = primitive.feature_vertices(feature).unwrap();
+    let placed = corners.iter().map(|&i| {
+        let corner = primitive.vertices[i as usize] + shape.body.center();
+        pose.transform_point(&corner)
+    });
+    hull_distance(&placed.collect::<Vec<_>>(), &[*point]).upper
 }
