@@ -6,7 +6,7 @@ use super::core::{Core, is_smooth};
 use super::distance::PrimitiveDistance;
 use super::placed::{PlacedPrimitive, Precision};
 use super::polytope_contacts::{first_polytope_contact, polytope_contacts};
-use super::smooth_distance::feature_at;
+use super::smooth_distance::holding_feature;
 use super::smooth_touch::smooth_touch;
 use crate::gjk::Support;
 use crate::pose::Vec3;
@@ -101,7 +101,9 @@ fn smooth_contact(
         for (side, placed) in [r, s].into_iter().enumerate() {
             if placed.shape.smooth().is_none() {
                 let slack = tolerance::ON_FEATURE * precision.size;
-                let here = feature_at(placed, &touch.points[side], slack);
+                let point = &touch.points[side];
+                let known = holding_feature(placed, touch.names.as_ref(), side, point, slack);
+                let here = placed.end_of_face(known, point, slack).unwrap_or(known);
                 if here.kind != FeatureKind::Interior {
                     features[side] = here;
                 }

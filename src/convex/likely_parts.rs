@@ -181,12 +181,15 @@ impl LikelyParts<'_> {
     }
 }
 
-/// Whether a core holds a point, up to a distance of `slack`; `None` where that has no closed form.
-pub fn holds(core: &Core, point: &Vec3, slack: f64) -> Option<bool> {
-    match Inner::of(core)?.nearest(point) {
-        Nearest::Inside(_) => Some(true),
-        Nearest::At(there, _) => Some((there - point).norm() <= slack),
-        Nearest::Unknown => None,
+/// Whether a core holds a point, up to a distance of `slack`; no where that has no closed form.
+pub fn holds(core: &Core, point: &Vec3, slack: f64) -> bool {
+    let Some(inner) = Inner::of(core) else {
+        return core.smooth().is_none() && core.placed().holds(point, slack);
+    };
+    match inner.nearest(point) {
+        Nearest::Inside(_) => true,
+        Nearest::At(there, _) => (there - point).norm() <= slack,
+        Nearest::Unknown => false,
     }
 }
 

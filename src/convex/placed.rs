@@ -2,6 +2,7 @@
 
 use std::cell::{Cell, OnceCell};
 
+use super::segment::Segment;
 use crate::gjk::{Extreme, Names, PointCloud, Support};
 use crate::pose::{Mat3, Pose, Vec3, turned, turned_back};
 use crate::primitive::{Convex, Face, Feature, FeatureKind, Form, Incidence, Primitive};
@@ -266,6 +267,25 @@ impl<'a> PlacedPrimitive<'a> {
         let heights = self.heights_over(point);
         let faces = heights.enumerate();
         faces.filter_map(move |(face, height)| (height.abs() <= near).then_some(face))
+    }
+
+    /// The corner or the edge of a face that a point of it is within `slack` of; `None` where it is inside, or for another feature.
+    pub fn end_of_face(&self, face: Feature, point: &Vec3, slack: f64) -> Option<Feature> {
+        if face.kind != FeatureKind::Face {
+            return None;
+        }
+        let ring = &self.shape.faces[face.index as usize].vertices;
+        let is_near = |&&i: &&u32| (self.vertex(i) - point).norm() <= slack;
+        if let Some(&corner) = ring.iter().find(is_near) {
+            return Some(Feature::vertex(corner));
+        }
+        (0..ring.len()).find_map(|i| {
+            let ends = [ring[i], ring[(i + 1) % ring.len()]];
+            let side = Segment::new(self.edge_ends(ends));
+            let nearest = side.at(side.nearest_parameter(point));
+            let is_near = (nearest - point).norm() <= slack;
+            is_near.then(|| self.feature_of(&ends)).flatten()
+        })
     }
 
     /// The heights of a point over the planes of the faces, in their order.

@@ -10,8 +10,8 @@ use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_smooth::point_to_smooth;
 use super::polytope_distance::cuboid;
 use super::segment::{Segment, closest_parameters};
-use super::touching_parts::TouchingParts;
-use crate::gjk::{DistanceLimits, Names, Nearby, RefinedBounds, refined, walked};
+use super::touching_parts::{TouchingParts, touch_between};
+use crate::gjk::{DistanceLimits, Names, Nearby, Refined, RefinedBounds, refined_or_touch, walked};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 use crate::primitive::Feature;
@@ -40,7 +40,8 @@ pub fn smooth_closest(
     let cores = [&core_a, &core_b];
     // A start that depends on the two primitives alone, so that the answer does too.
     let start = a.middle() - b.middle();
-    let search = || refined_pair(&core_a, &core_b, start, pair, limits);
+    let search = || refined_cores(cores, start, pair, limits);
+    let close = tolerance::MIN_SMOOTH_NORMAL_DISTANCE * pair.size;
     let found = match likely(cores, pair, limits) {
         Some(ByParts::Beyond { direction, gap }) => return Err(Beyond { direction, gap }),
         Some(ByParts::Within(points)) => return Ok(near_enough(points, Vec3::zeros())),
@@ -58,15 +59,19 @@ pub fn smooth_closest(
                 (limits.enough != 0.0).then(|| walked(&core_a, &core_b, start, pair.size, limits));
             match walked {
                 Some(walked) if walked.depth > 0.0 => walked,
-                Some(walked)
-                    if walked.lower > tolerance::MIN_SMOOTH_NORMAL_DISTANCE * pair.size =>
-                {
-                    search()
-                }
+                Some(walked) if walked.lower > close => search(),
                 _ => touching(cores, points, direction, pair).unwrap_or_else(search),
             }
         }
-        None => search(),
+        None => match refined_pair(cores, start, pair, limits, close) {
+            Refined::Bounds(found) => found,
+            // Yes or no needs no more than a common point.
+            Refined::Touch(near) => match limits.enough >= 0.0 {
+                true => touch_bounds(cores, &near, pair),
+                false => of_touch(cores, &near, pair),
+            }
+            .unwrap_or_else(search),
+        },
     };
     if found.lower > limits.cutoff {
         return Err(Beyond {
@@ -86,7 +91,8 @@ pub fn smooth_closest(
             if placed.shape.smooth().is_some() || found.depth > deep {
                 inside(placed)
             } else {
-                holding_feature(placed, &found, side, slack)
+                let point = &found.points[side];
+                holding_feature(placed, found.names.as_ref(), side, point, slack)
             }
         }),
         doubt: doubt(&found),
@@ -122,28 +128,38 @@ fn touching(
     direction: Vec3,
     pair: &Precision,
 ) -> Option<RefinedBounds> {
-    let parts = TouchingParts::new(cores, points, [Feature::interior(); 2], pair.size);
-    let near = parts.touch(direction).1?;
+    let parts = TouchingParts::new(cores, points, pair.size);
+    touch_bounds(cores, &parts.touch(direction).1?, pair)
+}
+
+/// The same of cores that a search ended with a signed gap of, `lower`. Of cores that overlap another direction may have a larger one.
+fn of_touch(cores: [&Core; 2], near: &Nearby, pair: &Precision) -> Option<RefinedBounds> {
+    if near.lower >= -tolerance::SUPPORT_ERROR * pair.size {
+        return touch_bounds(cores, near, pair);
+    }
+    touching(cores, near.points, near.direction, pair)
+}
+
+/// The bounds of cores with a signed gap, `lower`; `None` likewise.
+fn touch_bounds(cores: [&Core; 2], near: &Nearby, pair: &Precision) -> Option<RefinedBounds> {
+    let bounds = RefinedBounds::of_nearby(*near);
     let rounding = tolerance::SUPPORT_ERROR * pair.size;
     if near.lower > rounding {
-        return Some(RefinedBounds::of_nearby(near));
+        return Some(bounds);
     }
     if near.lower < -tolerance::JUST_INSIDE * pair.size {
         return None;
     }
     let touch = RefinedBounds {
         lower: 0.0,
-        ..RefinedBounds::of_nearby(near)
+        ..bounds
     };
     if near.lower >= -rounding {
         return Some(touch);
     }
     // Where surfaces have crossed, what is between them is in both, and at an edge, a rim or an apex that itself.
     let [p, q] = near.points;
-    let is_common = |point: &Vec3| {
-        let is_held = |core: &&Core| holds(core, point, rounding) == Some(true);
-        cores.iter().all(is_held)
-    };
+    let is_common = |point: &Vec3| cores.iter().all(|core| holds(core, point, rounding));
     let common = [0.5 * (p + q), p, q].into_iter().find(is_common)?;
     Some(RefinedBounds {
         upper: 0.0,
@@ -195,7 +211,7 @@ fn doubt(found: &RefinedBounds) -> f64 {
 }
 
 /// The distance of the cores after A's has moved by `shift`.
-pub fn refined_cores(
+pub fn shifted_cores(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
     start: Vec3,
@@ -203,25 +219,41 @@ pub fn refined_cores(
     pair: &Precision,
 ) -> RefinedBounds {
     let (a, b) = (Core::shifted(a, shift), Core::of(b));
-    refined_pair(&a, &b, start, pair, DistanceLimits::EXACT)
+    refined_cores([&a, &b], start, pair, DistanceLimits::EXACT)
 }
 
-fn refined_pair(
-    a: &Core,
-    b: &Core,
+fn refined_cores(
+    cores: [&Core; 2],
     start: Vec3,
     pair: &Precision,
     limits: DistanceLimits,
 ) -> RefinedBounds {
+    match refined_pair(cores, start, pair, limits, f64::NEG_INFINITY) {
+        Refined::Bounds(found) => found,
+        Refined::Touch(near) => RefinedBounds::of_nearby(near),
+    }
+}
+
+/// The same by a search that also ends at a touch, where two points are no more than `close` apart.
+fn refined_pair(
+    cores: [&Core; 2],
+    start: Vec3,
+    pair: &Precision,
+    limits: DistanceLimits,
+    close: f64,
+) -> Refined {
     let accepted = tolerance::CERTIFIED_GAP * pair.size;
-    refined(a, b, start, pair.size, limits, |names, direction| {
-        with_widest(Finish {
-            cores: [a, b],
+    let [a, b] = cores;
+    let finish = |names: &[Names; 2], direction: &Vec3, at_touch: bool| match at_touch {
+        true => touch_between(cores, *names, direction, pair.size),
+        false => with_widest(Finish {
+            cores,
             names: *names,
             accepted,
             direction,
-        })
-    })
+        }),
+    };
+    refined_or_touch(a, b, start, pair.size, limits, close, finish)
 }
 
 /// The end of a search, by Newton's method.
@@ -241,15 +273,15 @@ impl Work for Finish<'_> {
     }
 }
 
-/// The feature of a polytope that holds its closest point.
-fn holding_feature(
+/// The feature of a polytope, on a side, that holds a point of it: one of those between the corners of these names, if it is known.
+pub fn holding_feature(
     placed: &PlacedPrimitive,
-    found: &RefinedBounds,
+    names: Option<&[Names; 2]>,
     side: usize,
+    point: &Vec3,
     slack: f64,
 ) -> Feature {
-    let point = &found.points[side];
-    if let Some(names) = &found.names {
+    if let Some(names) = names {
         let names = names[side].as_slice();
         let near = |&&i: &&u32| (placed.vertex(i) - point).norm() <= slack;
         let vertex = names.iter().find(near).copied();
@@ -264,7 +296,7 @@ fn holding_feature(
 }
 
 /// The first feature of a polytope near a point of it: vertices first, then edges, then faces.
-pub fn feature_at(placed: &PlacedPrimitive, point: &Vec3, slack: f64) -> Feature {
+fn feature_at(placed: &PlacedPrimitive, point: &Vec3, slack: f64) -> Feature {
     if let Some(cuboid) = cuboid(placed) {
         return cuboid.feature_at(&cuboid.seen(&placed.seen(point)), slack);
     }
@@ -336,7 +368,7 @@ mod tests {
             planar: false,
         };
         let start = a.middle() - b.middle();
-        let found = refined_cores(&a, &b, start, Vec3::zeros(), &pair);
+        let found = shifted_cores(&a, &b, start, Vec3::zeros(), &pair);
         let gap = (found.upper - found.lower) / pair.size;
         assert!((-1e-14..=5e-12).contains(&gap), "{gap:e} {found:?}");
         found
@@ -391,7 +423,7 @@ mod tests {
                 };
                 let cores = [Core::of(&a), Core::of(&b)];
                 let start = a.middle() - b.middle();
-                let found = refined_pair(&cores[0], &cores[1], start, &pair, exact);
+                let found = refined_cores([&cores[0], &cores[1]], start, &pair, exact);
                 let is_clear = found.lower > 1e-6 || found.depth > 1e-2;
                 asked += usize::from(is_clear && kinds[1] != 5);
                 let Some(proved) = likely([&cores[0], &cores[1]], &pair, exact) else {

@@ -9,8 +9,9 @@
 use super::closest::Closest;
 use super::core::Core;
 use super::placed::{PlacedPrimitive, Precision};
-use super::smooth_distance::refined_cores;
+use super::smooth_distance::shifted_cores;
 use super::touching_parts::TouchingParts;
+use crate::gjk::Names;
 use crate::pose::Vec3;
 use crate::tolerance;
 
@@ -29,6 +30,8 @@ pub struct Touch {
     pub gap: f64,
     /// A point of A and one of B, where the gap is.
     pub points: [Vec3; 2],
+    /// The names of the extreme points that these lie between, where they are known.
+    pub names: Option<[Names; 2]>,
 }
 
 /// The touch of two cores with the given closest points, and a direction that they are apart or touch along, or zero; `None` where they
@@ -41,12 +44,7 @@ pub fn smooth_touch(
     precision: &Precision,
 ) -> Option<Touch> {
     let cores = [Core::of(r), Core::of(s)];
-    let parts = TouchingParts::new(
-        [&cores[0], &cores[1]],
-        closest.points,
-        closest.features,
-        precision.size,
-    );
+    let parts = TouchingParts::new([&cores[0], &cores[1]], closest.points, precision.size);
     let least = -tolerance::JUST_INSIDE * precision.size;
     let is_known = direction != Vec3::zeros();
     let along_known = is_known.then(|| parts.touch_along(&direction)).flatten();
@@ -61,6 +59,7 @@ pub fn smooth_touch(
             normal: near.direction,
             gap: near.lower,
             points: near.points,
+            names: Some(near.names),
         });
     }
     let found = moved_apart([r, s], &parts, guess, precision);
@@ -79,13 +78,14 @@ fn moved_apart(
         normal: guess,
         gap: parts.gap_along(&guess),
         points: parts.points,
+        names: None,
     };
     for step in 0..MAX_STEPS {
         let least = SHIFTS[step.min(1)] * precision.size;
         // The cores are apart after it.
         let shift = least.max(-2.0 * best.gap);
         let by = best.normal * shift;
-        let found = refined_cores(r, s, by, by, precision);
+        let found = shifted_cores(r, s, by, by, precision);
         if found.direction == Vec3::zeros() {
             break;
         }
@@ -103,6 +103,7 @@ fn moved_apart(
             normal,
             gap,
             points: [found.points[0] - by, found.points[1]],
+            names: found.names,
         };
         if step > 0 && turned <= tolerance::NORMAL_STEP {
             break;

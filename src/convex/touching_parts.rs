@@ -9,8 +9,9 @@ use super::nearest_parts::{NearestParts, direction_on_both};
 use super::polytope_distance::cuboid;
 use super::surface_part::SurfacePart;
 use crate::gjk::{Names, Nearby, Support};
+use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::{Vec3, turned, turned_back};
-use crate::primitive::{Feature, HIGH_END, LOW_END, SmoothKind};
+use crate::primitive::{HIGH_END, LOW_END, SmoothKind};
 use crate::tolerance;
 
 /// How far off, in L, the points that Newton's method finds may be across its direction: some rounding errors.
@@ -26,13 +27,14 @@ const AROUND: f64 = 2.0 * tolerance::JUST_INSIDE;
 /// A larger value costs more there, a smaller one may leave out the best guess where many meet.
 const MAX_AROUND: usize = 16;
 
+/// Some unit vectors.
+type Normals = SmallVec<[Vec3; 8]>;
+
 /// Two cores that may touch.
 pub struct TouchingParts<'a> {
     cores: [&'a Core<'a>; 2],
     /// A point of each where they nearly do.
     pub points: [Vec3; 2],
-    /// Of polytopes, the names of the parts that hold these, where they are known. What a box has there shows in the normal.
-    names: [Option<Names>; 2],
     size: f64,
 }
 
@@ -44,22 +46,11 @@ struct Guess {
 }
 
 impl<'a> TouchingParts<'a> {
-    /// `features` are those that hold the points, or interiors; `size` is L, the largest coordinate.
-    pub fn new(
-        cores: [&'a Core<'a>; 2],
-        points: [Vec3; 2],
-        features: [Feature; 2],
-        size: f64,
-    ) -> Self {
-        let names = [0, 1].map(|side| {
-            let placed = cores[side].placed();
-            let is_known = cuboid(placed).is_none();
-            is_known.then(|| placed.names_of(features[side])).flatten()
-        });
+    /// `size` is L, the largest coordinate.
+    pub fn new(cores: [&'a Core<'a>; 2], points: [Vec3; 2], size: f64) -> Self {
         Self {
             cores,
             points,
-            names,
             size,
         }
     }
@@ -77,10 +68,14 @@ impl<'a> TouchingParts<'a> {
         } else {
             known
         };
-        let mut best = Tried::new(self, self.best_normal(&self.points, self.guess(first)));
+        let normals = self.normals_around(&self.points);
+        let mut best = Tried::new(self, self.best_normal(&normals, self.guess(first)));
         if !best.is_apart(self) {
             let between = self.guess(self.between_middles());
-            best.improve(self, self.best_across_edges(&self.points, between));
+            best.improve(
+                self,
+                self.best_across_edges(&self.points, &normals, between),
+            );
         }
         if !best.is_apart(self) {
             // The points were not where the surfaces are. Each around the other's point: which side of an apex is next to it matters.
@@ -89,18 +84,21 @@ impl<'a> TouchingParts<'a> {
                 Some(near) => near.points,
                 None => [self.cores[0].support(&-n), self.cores[1].support(&n)],
             };
-            let normal = self.best_normal(&[q, p], best.guess);
-            best.improve(self, self.best_across_edges(&[q, p], normal));
+            let normals = self.normals_around(&[q, p]);
+            let normal = self.best_normal(&normals, best.guess);
+            best.improve(self, self.best_across_edges(&[q, p], &normals, normal));
         }
         (best.guess.normal, best.found)
     }
 
     /// The gap along a unit direction from B to A.
+    #[inline(always)]
     pub fn gap_along(&self, n: &Vec3) -> f64 {
         let [a, b] = self.cores;
         n.dot(&(a.support(&-n) - b.support(n)))
     }
 
+    #[inline(always)]
     fn guess(&self, normal: Vec3) -> Guess {
         Guess {
             normal,
@@ -118,60 +116,124 @@ impl<'a> TouchingParts<'a> {
         (a - b).try_normalize(0.0).unwrap_or_else(Vec3::x)
     }
 
-    /// The best of a guess and the directions that are normal to one of the surfaces around two points.
-    fn best_normal(&self, points: &[Vec3; 2], mut best: Guess) -> Guess {
-        let [a, b] = [0, 1].map(|side| normals_around(self.cores[side], &points[side], self.size));
-        for normal in a.iter().map(|normal| -normal).chain(b) {
-            best = best.or(self.guess(normal));
-        }
-        best
+    /// The outward normals of each surface around its point.
+    fn normals_around(&self, points: &[Vec3; 2]) -> [Normals; 2] {
+        let [a, b] = self.cores;
+        [
+            normals_around(a, &points[0], self.size),
+            normals_around(b, &points[1], self.size),
+        ]
+    }
+
+    /// The best of a guess and the directions that are normal to one of the surfaces.
+    fn best_normal(&self, [outwards_a, outwards_b]: &[Normals; 2], best: Guess) -> Guess {
+        let mut normals: Normals = outwards_a.iter().map(|outwards| -outwards).collect();
+        normals.extend_from_slice(outwards_b);
+        self.best_of(&normals, best)
     }
 
     /// The best of a guess and the directions across an edge, a rim or a ruling of each surface around two points, and of the normals of one
     /// across edges of a polytope.
-    fn best_across_edges(&self, points: &[Vec3; 2], mut best: Guess) -> Guess {
-        let [a, b] = [0, 1].map(|side| edges_around(self.cores[side], &points[side], self.size));
-        for (side, edges) in [&a, &b].into_iter().enumerate() {
+    fn best_across_edges(&self, points: &[Vec3; 2], normals: &[Normals; 2], best: Guess) -> Guess {
+        let on_a = edges_around(self.cores[0], &points[0], self.size);
+        let on_b = edges_around(self.cores[1], &points[1], self.size);
+        let mut found = Normals::new();
+        for (side, edges) in [&on_a, &on_b].into_iter().enumerate() {
             let other = 1 - side;
             if self.cores[side].smooth().is_some() {
                 continue;
             }
-            let normals = normals_around(self.cores[other], &points[other], self.size);
             for (along, _) in edges {
-                for outwards in &normals {
+                for outwards in &normals[other] {
                     let normal = if other == 0 { -outwards } else { *outwards };
                     let level = normal - along * along.dot(&normal);
-                    if let Some(level) = level.try_normalize(tolerance::PARALLEL_EDGES) {
-                        best = best.or(self.guess(level));
-                    }
+                    found.extend(level.try_normalize(tolerance::PARALLEL_EDGES));
                 }
             }
         }
-        for (along, height) in &a {
+        for (along, height) in &on_a {
             // A's outward normal is the opposite of the direction.
             let on_a = (*along, -height);
-            for on_b in &b {
+            for on_b in &on_b {
                 let across = along.cross(&on_b.0);
                 if across.norm() > tolerance::PARALLEL_EDGES {
-                    let both = [across, -across].map(|side| direction_on_both(on_a, *on_b, &side));
-                    for normal in both.into_iter().flatten() {
-                        best = best.or(self.guess(normal));
+                    for side in [across, -across] {
+                        found.extend(direction_on_both(on_a, *on_b, &side));
                     }
                 }
             }
         }
-        best
+        self.best_of(&found, best)
+    }
+
+    /// The best of a guess and some unit directions from B to A.
+    fn best_of(&self, normals: &[Vec3], best: Guess) -> Guess {
+        with_widest(BestOf {
+            parts: self,
+            normals,
+            best,
+        })
     }
 
     /// What Newton's method finds from a guess, between the parts of the surfaces that this is normal to.
     fn solve(&self, guess: &Guess) -> Option<Nearby> {
+        let [a, b] = self.cores;
+        let [on_a, on_b] = &self.points;
         let n = &guess.normal;
-        let names = [(0, -n), (1, *n)].map(|(side, outwards): (usize, Vec3)| {
-            self.names[side].unwrap_or_else(|| part_along(self.cores[side], &outwards))
-        });
-        let parts = NearestParts::new(self.cores, names, self.accepted())?.at_touch();
-        let found = parts.solve(n)?;
+        let names = [part_along(a, on_a, &-n), part_along(b, on_b, n)];
+        let found = touch_between(self.cores, names, n, self.size)?;
         (found.lower >= guess.gap - self.accepted()).then_some(found)
+    }
+}
+
+/// What Newton's method finds from a guess of the unit direction from B to A, between parts of these names: see [`TouchingParts::touch_along`].
+pub fn touch_between(
+    cores: [&Core; 2],
+    names: [Names; 2],
+    guess: &Vec3,
+    size: f64,
+) -> Option<Nearby> {
+    with_widest(BetweenParts {
+        cores,
+        names,
+        guess,
+        accepted: ACCEPTED * size,
+    })
+}
+
+struct BestOf<'a> {
+    parts: &'a TouchingParts<'a>,
+    normals: &'a [Vec3],
+    best: Guess,
+}
+
+impl Work for BestOf<'_> {
+    type Output = Guess;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> Guess {
+        let mut best = self.best;
+        for normal in self.normals {
+            best = best.or(self.parts.guess(*normal));
+        }
+        best
+    }
+}
+
+struct BetweenParts<'a> {
+    cores: [&'a Core<'a>; 2],
+    names: [Names; 2],
+    guess: &'a Vec3,
+    accepted: f64,
+}
+
+impl Work for BetweenParts<'_> {
+    type Output = Option<Nearby>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> Option<Nearby> {
+        let parts = NearestParts::new(self.cores, self.names, self.accepted)?;
+        parts.at_touch().solve(self.guess)
     }
 }
 
@@ -205,19 +267,24 @@ impl Tried {
 }
 
 impl Guess {
+    #[inline(always)]
     fn or(self, other: Self) -> Self {
         if other.gap > self.gap { other } else { self }
     }
 }
 
-/// The names of the part of a core's surface that has an outward normal.
-fn part_along(core: &Core, outwards: &Vec3) -> Names {
+/// The names of the part of a core's surface that has an outward normal; of a face, those of corners around a point in it.
+fn part_along(core: &Core, point: &Vec3, outwards: &Vec3) -> Names {
     let placed = core.placed();
-    let (all, constraint) = if core.smooth().is_some() {
+    if core.smooth().is_some() {
         let rulings = Names::two(LOW_END, HIGH_END);
         let tube = SurfacePart::between(core, rulings.as_slice());
-        (rulings, tube.and_then(|tube| tube.constraint()))
-    } else if let Some(cuboid) = cuboid(placed) {
+        return match tube.and_then(|tube| tube.constraint()) {
+            Some((axis, height)) if (axis.dot(outwards) - height).abs() <= ON_RULINGS => rulings,
+            _ => Names::one(core.extreme(outwards).name),
+        };
+    }
+    if let Some(cuboid) = cuboid(placed) {
         let normal = turned_back(&cuboid.axes, &placed.turned_back(outwards));
         let is_level = |k: usize| normal[k].abs() <= ON_RULINGS;
         let sides = Vec3::from_fn(|k, _| {
@@ -229,21 +296,70 @@ fn part_along(core: &Core, outwards: &Vec3) -> Names {
         });
         let names = placed.names_of(cuboid.feature_towards(&cuboid.half.component_mul(&sides)));
         return names.unwrap_or_else(|| Names::one(core.extreme(outwards).name));
-    } else if placed.vertex_count() == 2 {
-        let along = (core.vertex(1) - core.vertex(0)).try_normalize(0.0);
-        (Names::two(0, 1), along.map(|along| (along, 0.0)))
-    } else {
-        (Names::one(0), None)
+    }
+    polytope_part_along(core, point, outwards)
+}
+
+/// The same of a hull of vertices that is no box: of the faces and edges at the extreme vertex.
+#[inline(never)]
+fn polytope_part_along(core: &Core, point: &Vec3, outwards: &Vec3) -> Names {
+    let placed = core.placed();
+    let corner = core.extreme(outwards).name;
+    let is_face = |face: usize| {
+        let normal = placed.normal(face);
+        let side = if placed.shape.faces.len() == 1 {
+            outwards * normal.dot(outwards).signum()
+        } else {
+            *outwards
+        };
+        (normal - side).amax() <= ON_RULINGS
     };
-    match constraint {
-        Some((axis, height)) if (axis.dot(outwards) - height).abs() <= ON_RULINGS => all,
-        _ => Names::one(core.extreme(outwards).name),
+    let is_edge = |edge: &&[u32; 2]| {
+        let along = core.vertex(edge[1]) - core.vertex(edge[0]);
+        along.dot(outwards).abs() <= ON_RULINGS * along.norm()
+    };
+    let (faces, edges) = (&placed.shape.faces, &placed.shape.edges);
+    let (face, edge) = match placed.incidence() {
+        Some(incidence) => {
+            let mut around = incidence.faces_of(corner).iter().map(|&face| face as usize);
+            let ending = incidence.edges_of(corner).iter();
+            (
+                around.find(|&face| is_face(face)),
+                ending.map(|&edge| &edges[edge as usize]).find(is_edge),
+            )
+        }
+        None => {
+            let mut around =
+                (0..faces.len()).filter(|&face| faces[face].vertices.contains(&corner));
+            let mut ending = edges.iter().filter(|edge| edge.contains(&corner));
+            (around.find(|&face| is_face(face)), ending.find(is_edge))
+        }
+    };
+    match (face, edge) {
+        (Some(face), _) => Names::three(corners_around(core, face, point)),
+        (None, Some(edge)) => Names::two(edge[0], edge[1]),
+        (None, None) => Names::one(corner),
     }
 }
 
+/// Three corners of a face whose triangle holds a point, if the face does.
+fn corners_around(core: &Core, face: usize, point: &Vec3) -> [u32; 3] {
+    let ring = &core.placed().shape.faces[face].vertices;
+    let normal = core.placed().normal(face);
+    let first = core.vertex(ring[0]);
+    // Counter-clockwise from the first corner: what is not beyond a triangle's last side is in it.
+    let is_before = |&i: &usize| {
+        let side = core.vertex(ring[i + 1]) - first;
+        normal.cross(&side).dot(&(point - first)) <= 0.0
+    };
+    let last = ring.len() - 2;
+    let i = (1..last).find(is_before).unwrap_or(last);
+    [ring[0], ring[i], ring[i + 1]]
+}
+
 /// The outward normals of a core's surface around a point on it or near it.
-fn normals_around(core: &Core, point: &Vec3, size: f64) -> SmallVec<[Vec3; 8]> {
-    let mut found = SmallVec::new();
+fn normals_around(core: &Core, point: &Vec3, size: f64) -> Normals {
+    let mut found = Normals::new();
     let Some(smooth) = core.smooth() else {
         let placed = core.placed();
         if let Some(cuboid) = cuboid(placed) {

@@ -30,6 +30,13 @@ pub struct RefinedBounds {
     pub iterations: u32,
 }
 
+/// What a search ended with.
+pub enum Refined {
+    Bounds(RefinedBounds),
+    /// Sets that touch, or are about to: `lower` is their signed gap along the direction, and no other around it has a larger one.
+    Touch(Nearby),
+}
+
 /// The closest points of two sets, to within the accepted gap.
 #[derive(Clone, Copy, Debug)]
 pub struct Nearby {
@@ -79,6 +86,26 @@ pub fn refined<A: Support, B: Support>(
     limits: DistanceLimits,
     finish: impl Fn(&[Names; 2], &Vec3) -> Option<Nearby>,
 ) -> RefinedBounds {
+    let never = f64::NEG_INFINITY;
+    let found = refined_or_touch(a, b, start, size, limits, never, |names, direction, _| {
+        finish(names, direction)
+    });
+    match found {
+        Refined::Bounds(found) => found,
+        Refined::Touch(near) => RefinedBounds::of_nearby(near),
+    }
+}
+
+/// The same; where points are no more than `close` apart, `finish` is also tried with `true`, for a touch.
+pub fn refined_or_touch<A: Support, B: Support>(
+    a: &A,
+    b: &B,
+    start: Vec3,
+    size: f64,
+    limits: DistanceLimits,
+    close: f64,
+    finish: impl Fn(&[Names; 2], &Vec3, bool) -> Option<Nearby>,
+) -> Refined {
     let limits = DistanceLimits {
         cutoff: limits.cutoff.max(tolerance::SUPPORT_ERROR * size),
         ..limits
@@ -90,18 +117,19 @@ pub fn refined<A: Support, B: Support>(
         walks_first: true,
         accepted: tolerance::CERTIFIED_GAP * size,
         limits,
+        close,
         max_steps: MAX_STEPS,
         finish: Some(&finish),
     };
     // Decided only by more than the error of what the whole search finds.
     if let Some(limits) = limits.by_more_than(tolerance::SMOOTH_ERROR * size) {
-        let found = with_widest(Refinement {
+        let (found, _) = with_widest(Refinement {
             limits,
             finish: None,
             ..refinement
         });
         if found.lower > limits.cutoff || found.upper <= limits.enough {
-            return found;
+            return Refined::Bounds(found);
         }
     }
     let search = |walks_first: bool| {
@@ -110,20 +138,23 @@ pub fn refined<A: Support, B: Support>(
             ..refinement
         })
     };
-    let mut found = search(true);
+    let (mut found, mut touch) = search(true);
     let is_proved = found.lower > tolerance::SUPPORT_ERROR * size || found.depth > 0.0;
-    if !is_proved && found.upper > limits.enough {
+    if !is_proved && touch.is_none() && found.upper > limits.enough {
         // Nearly touching: the corners of the walk may be too close together. One corner alone begins better.
-        found = search(false);
+        (found, touch) = search(false);
+    }
+    if let Some(near) = touch {
+        return Refined::Touch(near);
     }
     if found.lower <= tolerance::SUPPORT_ERROR * size {
         (found.lower, found.direction) = (0.0, Vec3::zeros());
     }
-    found
+    Refined::Bounds(found)
 }
 
-/// What may end a search: see [`refined`].
-type Finish = fn(&[Names; 2], &Vec3) -> Option<Nearby>;
+/// What may end a search: see [`refined_or_touch`].
+type Finish = fn(&[Names; 2], &Vec3, bool) -> Option<Nearby>;
 
 /// What [`refined`] begins with, a walk towards the origin: a positive depth, a gap, or neither.
 pub fn walked<A: Support, B: Support>(
@@ -133,16 +164,18 @@ pub fn walked<A: Support, B: Support>(
     size: f64,
     limits: DistanceLimits,
 ) -> RefinedBounds {
-    with_widest(Refinement {
+    let (found, _) = with_widest(Refinement {
         a,
         b,
         start,
         walks_first: true,
         accepted: tolerance::CERTIFIED_GAP * size,
         limits,
+        close: f64::NEG_INFINITY,
         max_steps: 0,
         finish: None::<&Finish>,
-    })
+    });
+    found
 }
 
 impl RefinedBounds {
@@ -165,12 +198,12 @@ impl RefinedBounds {
         &mut self,
         simplex: &Simplex,
         direction: &Vec3,
-        finish: Option<&impl Fn(&[Names; 2], &Vec3) -> Option<Nearby>>,
+        finish: Option<&impl Fn(&[Names; 2], &Vec3, bool) -> Option<Nearby>>,
     ) -> bool {
         let (Some(finish), Some(names)) = (finish, simplex.names()) else {
             return false;
         };
-        let Some(near) = finish(&names, direction) else {
+        let Some(near) = finish(&names, direction, false) else {
             return false;
         };
         *self = Self {
@@ -191,6 +224,8 @@ struct Refinement<'a, A, B, F> {
     /// The bounds have met when they are this close.
     accepted: f64,
     limits: DistanceLimits,
+    /// Sets with points this near to each other may touch.
+    close: f64,
     max_steps: u32,
     /// `None` where bounds as close as [`THRESHOLD_GAP`] end the search.
     finish: Option<&'a F>,
@@ -208,22 +243,22 @@ impl<A, B, F> Work for Refinement<'_, A, B, F>
 where
     A: Support,
     B: Support,
-    F: Fn(&[Names; 2], &Vec3) -> Option<Nearby>,
+    F: Fn(&[Names; 2], &Vec3, bool) -> Option<Nearby>,
 {
-    type Output = RefinedBounds;
+    type Output = (RefinedBounds, Option<Nearby>);
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> RefinedBounds {
-        let mut iteration = Iteration::new(self.start);
+    fn run<I: Instructions>(self, _: I) -> (RefinedBounds, Option<Nearby>) {
+        let mut iteration = Iteration::new(self.start, self.close);
         if self.walks_first && iteration.begin(&self).is_break() {
-            return iteration.found;
+            return (iteration.found, None);
         }
         while iteration.found.iterations < self.max_steps {
             if iteration.step(&self).is_break() {
                 break;
             }
         }
-        iteration.found
+        (iteration.found, iteration.touch)
     }
 }
 
@@ -244,6 +279,9 @@ struct Iteration {
     finishes: u32,
     /// The quotient of the bounds' difference and the upper bound at which `finish` is tried next.
     finish_at: f64,
+    /// The upper bound at which it is tried next for a touch, and what it found.
+    touch_at: f64,
+    touch: Option<Nearby>,
 }
 
 /// What a new corner does to the simplex.
@@ -258,7 +296,7 @@ enum Extended {
 
 impl Iteration {
     #[inline(always)]
-    fn new(start: Vec3) -> Self {
+    fn new(start: Vec3, close: f64) -> Self {
         Self {
             found: RefinedBounds {
                 lower: 0.0,
@@ -282,6 +320,8 @@ impl Iteration {
             is_apart: false,
             finishes: 0,
             finish_at: FIRST_FINISH,
+            touch_at: close,
+            touch: None,
         }
     }
 
@@ -316,7 +356,7 @@ impl Iteration {
     where
         A: Support,
         B: Support,
-        F: Fn(&[Names; 2], &Vec3) -> Option<Nearby>,
+        F: Fn(&[Names; 2], &Vec3, bool) -> Option<Nearby>,
     {
         self.found.iterations += 1;
         let length = self.v.norm();
@@ -340,6 +380,15 @@ impl Iteration {
             self.finish_at = FIRST_FINISH * gap / self.found.upper;
             let direction = self.v / length;
             if self.found.finish(&self.simplex, &direction, sets.finish) {
+                return ControlFlow::Break(());
+            }
+        }
+        if self.found.upper <= self.touch_at
+            && let (Some(finish), Some(names)) = (sets.finish, self.simplex.names())
+        {
+            self.touch_at = FIRST_FINISH * self.found.upper;
+            self.touch = finish(&names, &(self.v / length), true);
+            if self.touch.is_some() {
                 return ControlFlow::Break(());
             }
         }
