@@ -2,7 +2,7 @@
 
 use super::contact::Contact;
 use super::core::{is_curved, is_smooth};
-use super::curved_contacts::{curved_contacts, first_curved_contact};
+use super::curved_contacts::{curved_contacts, first_curved_contact, first_of_rounded_contacts};
 use super::distance::PrimitiveDistance;
 use super::placed::{PlacedPrimitive, Precision};
 use super::polytope_contacts::{
@@ -58,9 +58,7 @@ fn first_of_all(
     precision: &Precision,
 ) -> Option<Contact> {
     if is_curved(r, s) {
-        curved_contacts(r, s, &measured, precision)
-            .into_iter()
-            .next()
+        first_of_rounded_contacts(r, s, &measured, precision)
     } else {
         first_of_polytope_contacts(r, s, &measured.closest, precision)
     }

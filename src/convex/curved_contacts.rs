@@ -4,8 +4,10 @@ use super::closest::Closest;
 use super::contact::{Contact, deepest_first, mode_of};
 use super::core::{Core, is_smooth};
 use super::distance::PrimitiveDistance;
-use super::placed::{PlacedPrimitive, Precision};
-use super::polytope_contacts::{first_polytope_contact, polytope_contacts};
+use super::placed::{PlacedPrimitive, Precision, gap_of_primitives};
+use super::polytope_contacts::{
+    first_of_polytope_contacts, first_polytope_contact, polytope_contacts,
+};
 use super::smooth_distance::holding_feature;
 use super::smooth_touch::smooth_touch;
 use crate::gjk::Support;
@@ -47,6 +49,24 @@ pub fn first_curved_contact(
     } else {
         first_polytope_contact(r, s, &touching(&measured.cores, precision), precision)?
     };
+    grow(&mut contact, [r, s], precision);
+    Some(contact)
+}
+
+/// The first of these contacts of rounded polytopes.
+pub fn first_of_rounded_contacts(
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
+    measured: &PrimitiveDistance,
+    precision: &Precision,
+) -> Option<Contact> {
+    let cores = touching(&measured.cores, precision);
+    let mut contact = first_of_polytope_contacts(r, s, &cores, precision)?;
+    // Of cores that are apart the first need not be the nearest along the normal, and of sets that overlap it would be less deep.
+    if gap_of_primitives(r, s, &contact.normal) < contact.gap - 0.5 * precision.error {
+        let all = curved_contacts(r, s, measured, precision);
+        return all.into_iter().next();
+    }
     grow(&mut contact, [r, s], precision);
     Some(contact)
 }

@@ -237,9 +237,16 @@ fn bounded_closest(
     if may_meet
         && let Some(across) = &bounds.across
         && let [Some(on_a), Some(on_b)] = features_of([a, b], &across.names)
-        && let Some(found) = touch_of([a, b], [on_a, on_b], common.map(|[point, _]| point), pair)
     {
-        return Ok(found);
+        let points = bounds.nearest.map(|nearest| nearest.points).or(common);
+        let at_end = points.and_then(|points| {
+            let found = Closest::between(points, [on_a, on_b]);
+            at_end([a, b], found, pair.error)
+        });
+        let features = at_end.map_or([on_a, on_b], |found| found.features);
+        if let Some(found) = touch_of([a, b], features, common.map(|[point, _]| point), pair) {
+            return Ok(found);
+        }
     }
     let mut attained = bounds.attained;
     if bounds.lower > 0.0 {
