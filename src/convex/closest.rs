@@ -15,8 +15,8 @@ pub struct Closest {
     pub distance: f64,
     pub points: [Vec3; 2],
     pub features: [Feature; 2],
-    /// How far the distance may exceed the true one, beyond the pair's error. Above 0 only for smooth sets whose bounds did not
-    /// converge.
+    /// How far the distance may exceed the true one, beyond the pair's error. Above 0 only where no direction proves it: for smooth sets
+    /// whose bounds did not converge, and hulls of which comparing features found it.
     pub doubt: f64,
     /// A lower bound of the depth by which meeting sets overlap.
     pub depth: f64,

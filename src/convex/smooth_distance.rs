@@ -65,12 +65,7 @@ pub fn smooth_closest(
         }
         None => match refined_pair(cores, start, pair, limits, close) {
             Refined::Bounds(found) => found,
-            // Yes or no needs no more than a common point.
-            Refined::Touch(near) => match limits.enough >= 0.0 {
-                true => touch_bounds(cores, &near, pair),
-                false => of_touch(cores, &near, pair),
-            }
-            .unwrap_or_else(search),
+            Refined::Touch(near) => of_touch(cores, &near, pair, limits).unwrap_or_else(search),
         },
     };
     if found.lower > limits.cutoff {
@@ -132,9 +127,15 @@ fn touching(
     touch_bounds(cores, &parts.touch(direction).1?, pair)
 }
 
-/// The same of cores that a search ended with a signed gap of, `lower`. Of cores that overlap another direction may have a larger one.
-fn of_touch(cores: [&Core; 2], near: &Nearby, pair: &Precision) -> Option<RefinedBounds> {
-    if near.lower >= -tolerance::SUPPORT_ERROR * pair.size {
+/// The same of cores that a search ended with a signed gap of, `lower`. Of cores that overlap another direction may have a larger one; yes or
+/// no needs no more than a common point.
+fn of_touch(
+    cores: [&Core; 2],
+    near: &Nearby,
+    pair: &Precision,
+    limits: DistanceLimits,
+) -> Option<RefinedBounds> {
+    if near.lower >= -tolerance::SUPPORT_ERROR * pair.size || limits.enough >= 0.0 {
         return touch_bounds(cores, near, pair);
     }
     touching(cores, near.points, near.direction, pair)
