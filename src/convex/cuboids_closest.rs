@@ -96,7 +96,7 @@ impl Work for Search<'_> {
                 }
             }
         }
-        let found = if overlap > tolerance::TOUCH_DEPTH * self.size {
+        let found = if overlap > tolerance::JUST_INSIDE * self.size {
             self.common(&axes, overlap)
         } else if largest > error {
             if let Some(points) = parallel_closest(&axes, self.size) {
@@ -213,14 +213,14 @@ impl Search<'_> {
         ])
     }
 
-    /// Features that the boxes may touch at, if they hardly overlap along the axis with the largest gap.
+    /// Features that the boxes may touch at, if they are just inside one another along the axis with the largest gap.
     fn touching_features(
         &self,
         axes: &CuboidAxes,
         axis: Axis,
         largest: f64,
     ) -> Option<[Feature; 2]> {
-        if largest < -2.0 * tolerance::TOUCH_DEPTH * self.size {
+        if largest < -2.0 * tolerance::JUST_INSIDE * self.size {
             return None;
         }
         let level = match axis {

@@ -83,7 +83,7 @@ pub fn foot_in(placed: &PlacedPrimitive, face: Feature, point: &Vec3) -> Option<
     is_over.then(|| point - placed.normal(face) * height)
 }
 
-/// Two sets that touch at such features, or overlap there by no more than a touch.
+/// Two sets that touch at such features, or overlap there by no more than [`tolerance::JUST_INSIDE`] L.
 pub struct FeatureTouch {
     /// Each other's feet.
     pub points: [Vec3; 2],
@@ -109,7 +109,7 @@ impl FeatureTouch {
         let [(gap, normal), (other, _)] = gaps_along(a, b, &along);
         let height = normal.dot(&(points[0] - points[1]));
         let is_proved = height - gap <= tolerance::CERTIFIED_GAP * pair.size;
-        (is_proved && gap >= -tolerance::TOUCH_DEPTH * pair.size).then_some(Self {
+        (is_proved && gap >= -tolerance::JUST_INSIDE * pair.size).then_some(Self {
             points,
             normal,
             height,
@@ -257,10 +257,10 @@ mod tests {
         // Out along x is a third as far.
         let at_edge = Vec3::new(1.0 - depth / 3.0, 0.0, 1.0 - depth);
         assert_eq!(touch(at_edge, at_edge), Some(false));
-        // Beside the face, deeper than a touch, and another corner than the lowest.
+        // Beside the face, deeper than just inside, and another corner than the lowest.
         let beside = Vec3::new(1.1, 0.0, 1.0 - depth);
         assert_eq!(touch(beside, beside), None);
-        let deep = Vec3::new(0.4, 0.0, 1.0 - 1e-8);
+        let deep = Vec3::new(0.4, 0.0, 1.0 - 1e-5);
         assert_eq!(touch(deep, deep), None);
         let apex = Vec3::new(-0.5, 0.0, 1.0 - depth);
         assert_eq!(touch(apex, apex + Vec3::new(1.0, 0.3, 0.5)), None);

@@ -27,15 +27,15 @@ pub fn parallel_closest(axes: &CuboidAxes, size: f64) -> Option<[Vec3; 2]> {
     is_proved(axes, &found.way, size).then_some(found.points)
 }
 
-/// The same for boxes that may touch across this axis of one of them, 0 for A, or overlap there by no more than a touch: nothing proves
-/// these points.
+/// The same for boxes that may touch across this axis of one of them, 0 for A, or are just inside one another there: nothing proves these
+/// points.
 pub fn parallel_touching(
     axes: &CuboidAxes,
     (side, axis): (usize, usize),
     size: f64,
 ) -> Option<[Vec3; 2]> {
     let pair = parallel_axes(axes, |pair| pair[side] == axis)?;
-    let found = Candidate::of(axes, pair, size, tolerance::TOUCH_DEPTH * size)?;
+    let found = Candidate::of(axes, pair, size, tolerance::JUST_INSIDE * size)?;
     Some(found.points)
 }
 

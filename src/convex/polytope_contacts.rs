@@ -195,9 +195,10 @@ fn contacts_within(slack: f64, pair: &ContactPair, normal: Vec3) -> Vec<Contact>
     };
     let has_mode = listed_mode(pair).is_some();
     // Of sets that overlap the closest points are a common one, less deep than the corner or the crossing next to it.
+    let gap = normal.dot(&(closest.points[0] - closest.points[1]));
     let is_common = has_mode
         && closest.distance <= precision.error
-        && gap_of_primitives(r, s, &normal) < -precision.error;
+        && gap_of_primitives(r, s, &normal) < gap - precision.error;
     if has_mode && !is_common {
         list.offer(closest.points, closest.features);
     }

@@ -11,7 +11,7 @@ use super::level_features::at_end;
 use super::local_features::local_normals;
 use super::placed::{PlacedPrimitive, Precision, gap_of_primitives, larger_gap};
 use super::point_to_polygon::point_to_polygon;
-use crate::gjk::{DistanceLimits, Names, NearestCorners, gjk};
+use crate::gjk::{DistanceLimits, Gjk, Names, NearestCorners, gjk};
 use crate::pose::Vec3;
 use crate::primitive::{Cuboid, Feature, FeatureKind};
 use crate::tolerance;
@@ -201,16 +201,21 @@ fn bounded_closest(
     }
     // A separating direction is trusted over a tetrahedron around the origin.
     let may_meet = bounds.lower <= tolerance::SUPPORT_ERROR * size;
-    if may_meet && bounds.overlap > tolerance::TOUCH_DEPTH * size {
-        let interior = [Feature::interior(); 2];
-        return Ok(Closest {
-            depth: bounds.overlap,
-            ..Closest::meeting_at(bounds.common, interior)
-        });
-    }
     let is_common = |nearest: &NearestCorners| nearest.difference.norm() <= pair.error;
     let common = bounds.nearest.filter(is_common);
     let common = bounds.near.or(common.map(|nearest| nearest.points));
+    if may_meet && bounds.overlap > tolerance::TOUCH_DEPTH * size {
+        // Only sets that are just inside have contacts.
+        let touch = match limits.enough >= 0.0 || bounds.overlap > tolerance::JUST_INSIDE * size {
+            true => None,
+            false => touch_at_end([a, b], &bounds, common, pair),
+        };
+        let interior = [Feature::interior(); 2];
+        return Ok(Closest {
+            depth: bounds.overlap,
+            ..touch.unwrap_or(Closest::meeting_at(bounds.common, interior))
+        });
+    }
     // Yes or no needs no more than a common point; else the features that touch are looked for.
     if let Some(points) = common
         && limits.enough >= 0.0
@@ -234,19 +239,8 @@ fn bounded_closest(
                 .unwrap_or(found));
         }
     }
-    if may_meet
-        && let Some(across) = &bounds.across
-        && let [Some(on_a), Some(on_b)] = features_of([a, b], &across.names)
-    {
-        let points = bounds.nearest.map(|nearest| nearest.points).or(common);
-        let at_end = points.and_then(|points| {
-            let found = Closest::between(points, [on_a, on_b]);
-            at_end([a, b], found, pair.error)
-        });
-        let features = at_end.map_or([on_a, on_b], |found| found.features);
-        if let Some(found) = touch_of([a, b], features, common.map(|[point, _]| point), pair) {
-            return Ok(found);
-        }
+    if may_meet && let Some(found) = touch_at_end([a, b], &bounds, common, pair) {
+        return Ok(found);
     }
     let mut attained = bounds.attained;
     if bounds.lower > 0.0 {
@@ -299,6 +293,23 @@ fn doubt_of(
         proved = gaps.fold(proved, f64::max);
     }
     (proved_at_least - proved.max(0.0)).max(0.0)
+}
+
+/// The closest points of sets that touch at the features that a search has come to, or at an end of what these have in common where they
+/// are parallel. `common` are those found of sets that meet, if they are known.
+fn touch_at_end(
+    sides: [&PlacedPrimitive; 2],
+    bounds: &Gjk,
+    common: Option<[Vec3; 2]>,
+    pair: &Precision,
+) -> Option<Closest> {
+    let [on_a, on_b] = features_of(sides, &bounds.across.as_ref()?.names);
+    let features = [on_a?, on_b?];
+    let points = bounds.nearest.map(|nearest| nearest.points).or(common);
+    let at_end =
+        points.and_then(|points| at_end(sides, Closest::between(points, features), pair.error));
+    let features = at_end.map_or(features, |found| found.features);
+    touch_of(sides, features, common.map(|[point, _]| point), pair)
 }
 
 /// The closest points of sets that touch at two features, if their own normal proves it. `common` is a point of both sets, or none.
