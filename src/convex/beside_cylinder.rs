@@ -337,7 +337,11 @@ mod tests {
             let size = 6.0;
             let start = poses[0].translation - poses[1].translation;
             let limits = DistanceLimits::EXACT;
-            let bounds = refined(&core_a, &core_b, start, size, limits, |_, _| None);
+            let search = |a: &Core| {
+                let never = f64::NEG_INFINITY;
+                refined(a, &core_b, start, size, limits, never, |_, _, _| None).bounds()
+            };
+            let bounds = search(&core_a);
             let closest = beside_cylinder([&core_a, &core_b], &b, size);
             if bounds.lower < 1e-9 {
                 let Some((closest, _)) = closest else {
@@ -348,7 +352,7 @@ mod tests {
                 // They still meet after any shorter move.
                 let way = vector(random).normalize() * (0.999 * closest.depth);
                 let shifted = Core::shifted(&a, way);
-                let moved = refined(&shifted, &core_b, start, size, limits, |_, _| None);
+                let moved = search(&shifted);
                 assert!(moved.lower == 0.0, "{closest:?} {moved:?}");
                 continue;
             }

@@ -122,7 +122,8 @@ fn smooth_contact(
             if placed.shape.smooth().is_none() {
                 let slack = tolerance::ON_FEATURE * precision.size;
                 let point = &touch.points[side];
-                let known = holding_feature(placed, touch.names.as_ref(), side, point, slack);
+                let names = touch.names.map(|names| names[side]);
+                let known = holding_feature(placed, names, point, slack);
                 let here = placed.end_of_face(known, point, slack).unwrap_or(known);
                 if here.kind != FeatureKind::Interior {
                     features[side] = here;

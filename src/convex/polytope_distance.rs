@@ -205,15 +205,15 @@ fn bounded_closest(
     let common = bounds.nearest.filter(is_common);
     let common = bounds.near.or(common.map(|nearest| nearest.points));
     if may_meet && bounds.overlap > tolerance::TOUCH_DEPTH * size {
-        // Only sets that are just inside have contacts.
-        let touch = match limits.enough >= 0.0 || bounds.overlap > tolerance::JUST_INSIDE * size {
-            true => None,
-            false => touch_at_end([a, b], &bounds, common, pair),
-        };
-        let interior = [Feature::interior(); 2];
+        let common_point = Closest::meeting_at(bounds.common, [Feature::interior(); 2]);
+        // Deeper sets have no contact, and yes or no needs none.
+        let is_just_inside = bounds.overlap <= tolerance::JUST_INSIDE * size;
+        let touch = (is_just_inside && limits.enough < 0.0)
+            .then(|| touch_at_end([a, b], &bounds, common, pair))
+            .flatten();
         return Ok(Closest {
             depth: bounds.overlap,
-            ..touch.unwrap_or(Closest::meeting_at(bounds.common, interior))
+            ..touch.unwrap_or(common_point)
         });
     }
     // Yes or no needs no more than a common point; else the features that touch are looked for.

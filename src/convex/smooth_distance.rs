@@ -11,7 +11,7 @@ use super::point_to_smooth::point_to_smooth;
 use super::polytope_distance::cuboid;
 use super::segment::{Segment, closest_parameters};
 use super::touching_parts::{TouchingParts, touch_between};
-use crate::gjk::{DistanceLimits, Names, Nearby, Refined, RefinedBounds, refined_or_touch, walked};
+use crate::gjk::{DistanceLimits, Names, Nearby, Refined, RefinedBounds, refined, walked};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 use crate::primitive::Feature;
@@ -86,8 +86,8 @@ pub fn smooth_closest(
             if placed.shape.smooth().is_some() || found.depth > deep {
                 inside(placed)
             } else {
-                let point = &found.points[side];
-                holding_feature(placed, found.names.as_ref(), side, point, slack)
+                let names = found.names.map(|names| names[side]);
+                holding_feature(placed, names, &found.points[side], slack)
             }
         }),
         doubt: doubt(&found),
@@ -229,10 +229,7 @@ fn refined_cores(
     pair: &Precision,
     limits: DistanceLimits,
 ) -> RefinedBounds {
-    match refined_pair(cores, start, pair, limits, f64::NEG_INFINITY) {
-        Refined::Bounds(found) => found,
-        Refined::Touch(near) => RefinedBounds::of_nearby(near),
-    }
+    refined_pair(cores, start, pair, limits, f64::NEG_INFINITY).bounds()
 }
 
 /// The same by a search that also ends at a touch, where two points are no more than `close` apart.
@@ -254,7 +251,7 @@ fn refined_pair(
             direction,
         }),
     };
-    refined_or_touch(a, b, start, pair.size, limits, close, finish)
+    refined(a, b, start, pair.size, limits, close, finish)
 }
 
 /// The end of a search, by Newton's method.
@@ -274,16 +271,15 @@ impl Work for Finish<'_> {
     }
 }
 
-/// The feature of a polytope, on a side, that holds a point of it: one of those between the corners of these names, if it is known.
+/// The feature of a polytope that holds a point of it: one of those between the corners of these names, if they are known.
 pub fn holding_feature(
     placed: &PlacedPrimitive,
-    names: Option<&[Names; 2]>,
-    side: usize,
+    names: Option<Names>,
     point: &Vec3,
     slack: f64,
 ) -> Feature {
-    if let Some(names) = names {
-        let names = names[side].as_slice();
+    if let Some(names) = &names {
+        let names = names.as_slice();
         let near = |&&i: &&u32| (placed.vertex(i) - point).norm() <= slack;
         let vertex = names.iter().find(near).copied();
         let known = vertex

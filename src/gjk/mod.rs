@@ -10,7 +10,7 @@ mod simplex;
 
 use self::meeting::beginning;
 pub use self::meeting::{Proved, meeting};
-pub use self::refined::{Nearby, Refined, RefinedBounds, refined, refined_or_touch, walked};
+pub use self::refined::{Nearby, Refined, RefinedBounds, refined, walked};
 use self::simplex::{Corner, OriginPosition, Simplex};
 pub use self::simplex::{Names, NearTriangle, NearestCorners};
 use crate::lanes::{Instructions, Work, with_widest};

@@ -37,6 +37,16 @@ pub enum Refined {
     Touch(Nearby),
 }
 
+impl Refined {
+    /// The bounds, whichever it ended with.
+    pub fn bounds(self) -> RefinedBounds {
+        match self {
+            Self::Bounds(found) => found,
+            Self::Touch(near) => RefinedBounds::of_nearby(near),
+        }
+    }
+}
+
 /// The closest points of two sets, to within the accepted gap.
 #[derive(Clone, Copy, Debug)]
 pub struct Nearby {
@@ -77,27 +87,9 @@ const MAX_RESTARTS: u32 = 8;
 /// Bounds the distance of A and B until the bounds are [`tolerance::CERTIFIED_GAP`] times `size` apart, or no step improves
 /// them, or `limits` allow to stop. No coordinate of A and B exceeds `size`. `start` is a guess of the direction from B to A.
 /// Once the bounds are close, `finish` is called with the direction of the last step and the names of the extreme points that
-/// the closest points lie between. It may end the search by returning closest points that are accurate enough.
+/// the closest points lie between. It may end the search by returning closest points that are accurate enough. Where
+/// points are no more than `close` apart, it is also called with `true`, for a touch.
 pub fn refined<A: Support, B: Support>(
-    a: &A,
-    b: &B,
-    start: Vec3,
-    size: f64,
-    limits: DistanceLimits,
-    finish: impl Fn(&[Names; 2], &Vec3) -> Option<Nearby>,
-) -> RefinedBounds {
-    let never = f64::NEG_INFINITY;
-    let found = refined_or_touch(a, b, start, size, limits, never, |names, direction, _| {
-        finish(names, direction)
-    });
-    match found {
-        Refined::Bounds(found) => found,
-        Refined::Touch(near) => RefinedBounds::of_nearby(near),
-    }
-}
-
-/// The same; where points are no more than `close` apart, `finish` is also tried with `true`, for a touch.
-pub fn refined_or_touch<A: Support, B: Support>(
     a: &A,
     b: &B,
     start: Vec3,
@@ -153,7 +145,7 @@ pub fn refined_or_touch<A: Support, B: Support>(
     Refined::Bounds(found)
 }
 
-/// What may end a search: see [`refined_or_touch`].
+/// What may end a search: see [`refined`].
 type Finish = fn(&[Names; 2], &Vec3, bool) -> Option<Nearby>;
 
 /// What [`refined`] begins with, a walk towards the origin: a positive depth, a gap, or neither.
